@@ -1,0 +1,34 @@
+// ColorField: a colour for every point of space, asked for at set voxels only (Rueda et al., section 5 and Figure 4).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+
+#include "voxelizer/error.h"
+
+namespace xorvox::host {
+
+/// A volumetric colour function. Colours are linear light, 0 … 1 per channel of sRGB primaries.
+class ColorField {
+public:
+    virtual ~ColorField() = default;
+    /// `points`: 0 … 1 along x, y and z of the lattice's box. `colors` has as many entries. Any number of threads.
+    virtual void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const = 0;
+};
+
+/// What `--color` takes. The message for anything else lists what is allowed. COLOR is a name or #rrggbb (sRGB).
+///
+///   constant:COLOR          one colour
+///   gradient                azure, rose and gold, from bottom to top
+///   gradient:COLOR,COLOR    from bottom to top, mixed evenly to the eye (Oklab)
+///   noise, noise:SCALE      Perlin's noise through a palette; SCALE cells along each side of the box, 0.1 … 256,
+///   default 4
+///
+/// The same bits on every machine. Apart from what the user names, no point is dark: the strongest channel is at least
+/// 0.5.
+Expected<std::unique_ptr<ColorField>> parse_color(std::string_view spec);
+
+}  // namespace xorvox::host

@@ -1,0 +1,65 @@
+#include "driver/host/pixel.h"
+
+#include <algorithm>
+
+namespace xorvox::host {
+namespace {
+
+/// Where a channel's bits are in a pixel.
+struct Channel {
+    std::uint32_t shift;
+    std::uint32_t bits;
+};
+
+struct Channels {
+    Channel red, green, blue;
+};
+
+constexpr Channels channels(PixelFormat format) {
+    switch (format) {
+        case PixelFormat::Mono1: break;  // One bit for all three: see quantize.
+        case PixelFormat::Rgb111: return {{0, 1}, {1, 1}, {2, 1}};
+        case PixelFormat::Rgb332: return {{5, 3}, {2, 3}, {0, 2}};
+        case PixelFormat::Rgb565: return {{11, 5}, {5, 6}, {0, 5}};
+        case PixelFormat::Rgb888: return {{0, 8}, {8, 8}, {16, 8}};
+    }
+    return {{0, 1}, {0, 1}, {0, 1}};
+}
+
+/// Written so that a NaN is dark.
+std::uint32_t level(float value, const Channel& channel) {
+    const auto most = static_cast<float>((1u << channel.bits) - 1);
+    const float clipped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+    return static_cast<std::uint32_t>(clipped * most + 0.5f) << channel.shift;
+}
+
+bool is_black(const glm::vec3& color) {
+    return !(color.r > 0.0f || color.g > 0.0f || color.b > 0.0f);
+}
+
+}  // namespace
+
+std::uint32_t quantize(glm::vec3 linear, PixelFormat format) {
+    if (format == PixelFormat::Mono1) return is_black(linear) ? 0 : 1;
+    const auto [red, green, blue] = channels(format);
+    return level(linear.r, red) | level(linear.g, green) | level(linear.b, blue);
+}
+
+std::uint32_t visible_code(glm::vec3 linear, PixelFormat format) {
+    const std::uint32_t code = quantize(linear, format);
+    if (code != 0 || is_black(linear)) return code;
+    const auto [red, green, blue] = channels(format);
+    const float strongest = std::max({linear.r, linear.g, linear.b});
+    const Channel& lit = linear.r == strongest ? red : linear.g == strongest ? green : blue;
+    return 1u << lit.shift;
+}
+
+void put_pixel(std::span<std::byte> row, std::uint32_t column, PixelFormat format, std::uint32_t code) {
+    const std::size_t bit = std::size_t{column} * bits_per_pixel(format);
+    std::size_t byte = bit / 8;
+    for (std::uint32_t rest = code << (bit % 8); rest != 0; rest >>= 8) {
+        row[byte++] |= static_cast<std::byte>(rest & 0xff);
+    }
+}
+
+}  // namespace xorvox::host

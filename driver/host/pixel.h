@@ -1,0 +1,26 @@
+// Pixels: colours to codes, and codes to the bits of a row, as driver/display/description.h draws them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <glm/vec3.hpp>
+
+#include "driver/display/description.h"
+
+namespace xorvox::host {
+
+/// The code of a linear colour in `format`, in the low bits: each channel clipped to 0 … 1 and rounded to nearest.
+/// Mono1 has no levels: it is lit unless the colour is black.
+std::uint32_t quantize(glm::vec3 linear, PixelFormat format);
+
+/// As quantize, but never 0 unless the colour is black: a colour that is too faint for the format becomes the faintest
+/// code of its strongest channel, so that no set voxel is lost. A channel that is not above zero counts as dark.
+std::uint32_t visible_code(glm::vec3 linear, PixelFormat format);
+
+/// Writes the pixel at `column` of `row`, whose bits are zero there. row.size() is at least row_bytes of the panel;
+/// `code` has no bits above bits_per_pixel(format).
+void put_pixel(std::span<std::byte> row, std::uint32_t column, PixelFormat format, std::uint32_t code);
+
+}  // namespace xorvox::host

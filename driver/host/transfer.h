@@ -1,0 +1,75 @@
+// Transfer: the frame on its way to the device, through all its attempts, and what was accepted before it. It knows
+// neither link nor clock; the session does. Internal to driver/host.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "driver/host/encoder.h"
+#include "driver/host/session.h"
+#include "driver/wire/messages.h"
+
+namespace xorvox::host {
+
+class Transfer {
+public:
+    enum class Phase : std::uint8_t { None, Queued, Sending, Waiting };
+
+    /// Counts what happens to frames in `statistics`, which is borrowed.
+    explicit Transfer(SessionStatistics& statistics) : statistics_(&statistics) {}
+
+    Phase phase() const { return phase_; }
+    bool began() const { return phase_ == Phase::Sending || phase_ == Phase::Waiting; }
+    std::uint32_t failed_attempts() const { return failed_attempts_; }
+    const char* refusal_text() const;  ///< Why the last attempt failed.
+    std::uint32_t last_accepted() const { return last_accepted_; }
+    std::uint32_t last_presented() const { return last_presented_; }
+
+    /// Another device, or the same one after it forgot everything: no delta can be based on what it had.
+    void begin_with(const EncoderLimits& limits);
+
+    /// None to Queued: a copy of `content` is to be sent.
+    void submit(std::span<const std::byte> content, std::uint64_t present_at_ns);
+    /// Queued to Sending, under a new id; as a delta where `delta` allows it and there is a base.
+    void encode(bool delta);
+    /// Sending: the next payload.
+    Payload next_payload() { return encoder_.payload(next_payload_++); }
+    bool all_given() const { return phase_ == Phase::Sending && next_payload_ == encoder_.payload_count(); }
+    /// Sending to Waiting; where nobody will answer, to None.
+    void sent(bool two_way) { phase_ = two_way ? Phase::Waiting : Phase::None; }
+    /// Back to Queued: the next attempt is a keyframe.
+    void again(wire::NackReason reason);
+
+    /// True when the message accepts the frame on its way, which is done then.
+    bool accept(const wire::Acknowledge& message);
+    /// True when it refuses the attempt that is running.
+    bool is_refused_by(const wire::Nack& message) const { return began() && message.frame == id_; }
+    /// `frame` is being shown. Counted once for each accepted frame.
+    void presented(std::uint32_t frame);
+
+private:
+    bool is_an_attempt(std::uint32_t frame) const;
+
+    SessionStatistics* statistics_;
+    FrameEncoder encoder_;
+    Phase phase_ = Phase::None;
+    std::vector<std::byte> content_;
+    std::uint64_t present_at_ns_ = 0;
+    std::uint32_t id_ = 0;        ///< Of the last attempt.
+    std::uint32_t first_id_ = 0;  ///< Of the first attempt with the same content.
+    std::uint32_t failed_attempts_ = 0;
+    std::size_t next_payload_ = 0;
+    wire::NackReason refusal_{};  ///< 0: it was silence.
+
+    std::vector<std::byte> base_;  ///< Content of the frame accepted last.
+    std::uint32_t base_id_ = 0;
+    bool has_base_ = false;
+    std::uint32_t last_accepted_ = 0;
+    std::uint32_t last_presented_ = 0;
+    std::deque<std::uint32_t> unpresented_;  ///< Accepted frames.
+};
+
+}  // namespace xorvox::host

@@ -1,0 +1,55 @@
+// Simulator: the far end of the wire. The real device half behind a link, a panel that it scans out to, and the light that
+// the panel gives at each place. It knows the display's description and the bytes that arrive; never the host's volume.
+//
+//   link ─► device::Device ─► page ─► panel (pixels) ─► optics (flashes: place, colour, time) ─► picture, statistics
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "driver/device/device.h"
+#include "driver/display/description.h"
+#include "sim/optics.h"
+#include "transport/link.h"
+#include "voxelizer/error.h"
+
+namespace xorvox::sim {
+
+struct SimulatorOptions {
+    std::uint32_t pages = 3;
+    std::uint32_t max_packet_bytes = 65536;
+    std::uint32_t boot_nonce = 1;
+    Misbuild misbuild;  ///< Ways in which this display differs from its description; none.
+};
+
+/// Deterministic: everything follows from the packets and the times given to poll(). One thread.
+class Simulator {
+public:
+    static Expected<Simulator> make(const DisplayDescription& display, Link link, const SimulatorOptions& options = {});
+    Simulator(Simulator&&) noexcept;
+    Simulator& operator=(Simulator&&) noexcept;
+    ~Simulator();
+
+    /// Lets the device receive, and turns the display on to `now_ns`: a boundary for each whole cycle that began since the
+    /// last call. Answers as Device::poll.
+    Status poll(std::uint64_t now_ns);
+
+    /// Another client; see Device::set_link.
+    void set_link(Link link);
+
+    /// When the next boundary is due.
+    std::uint64_t next_boundary_ns() const;
+
+    /// The light of one whole cycle of what is shown now.
+    LightField light() const;
+
+    const device::Device& device() const;
+    const DisplayDescription& display() const;
+
+private:
+    struct Impl;
+    explicit Simulator(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace xorvox::sim

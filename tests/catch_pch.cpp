@@ -1,0 +1,1 @@
+// Gives the precompiled header, which the test programs reuse, a source to be built for.

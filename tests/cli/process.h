@@ -1,0 +1,67 @@
+// Runs the xorvox program as a person would, and what to look at afterwards.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace xorvox::test {
+
+/// What a program said and how it ended.
+struct Outcome {
+    int status = -1;  ///< Exit status; 128 + signal when killed.
+    std::string out;
+    std::string err;
+};
+
+/// Runs the program to its end. Standard input is empty. `memory_limit_bytes`: what its address space may grow to; 0 is
+/// no limit.
+Outcome xorvox(const std::vector<std::string>& arguments, std::uint64_t memory_limit_bytes = 0);
+
+/// A program that runs beside the test; killed and reaped at the end.
+class Background {
+public:
+    explicit Background(const std::vector<std::string>& arguments);
+    ~Background();
+    Background(const Background&) = delete;
+    Background& operator=(const Background&) = delete;
+
+    /// The next line of its standard output, or nothing when it has ended.
+    std::optional<std::string> line();
+    /// Sends SIGTERM and gives the exit status.
+    int terminate();
+
+private:
+    pid_t pid_ = -1;
+    int out_ = -1;
+    std::string buffer_;
+};
+
+/// A new empty folder, deleted at the end.
+class Folder {
+public:
+    Folder();
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    std::string path(const std::string& name) const { return (root_ / name).string(); }
+    /// Writes a file and gives its path.
+    std::string file(const std::string& name, const std::string& bytes) const;
+    /// Names of everything in the folder, sorted.
+    std::vector<std::string> names() const;
+
+private:
+    std::filesystem::path root_;
+};
+
+std::string read_file(const std::string& path);
+
+/// A cube from (0,0,0) to (side,side,side) as OBJ, its sixth face left out on request.
+std::string cube_obj(double side, bool open = false);
+
+}  // namespace xorvox::test

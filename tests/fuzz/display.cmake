@@ -1,0 +1,1 @@
+xorvox_fuzzer(display SOURCES display.cpp LINK xorvox::driver)

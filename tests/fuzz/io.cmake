@@ -1,0 +1,3 @@
+xorvox_fuzzer(ply SOURCES ply.cpp LINK xorvox::io)
+xorvox_fuzzer(stl SOURCES stl.cpp LINK xorvox::io)
+xorvox_fuzzer(obj SOURCES obj.cpp LINK xorvox::io)

@@ -1,0 +1,1 @@
+xorvox_fuzzer(framing SOURCES framing.cpp LINK xorvox::transport)

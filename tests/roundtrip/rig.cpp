@@ -1,0 +1,133 @@
+#include "tests/roundtrip/rig.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "driver/host/color.h"
+#include "driver/host/pixel.h"
+#include "driver/host/slices.h"
+#include "transport/loopback.h"
+#include "transport/tcp.h"
+#include "voxelizer/voxelize.h"
+
+namespace xorvox::test {
+
+Mesh lopsided(std::uint32_t turn) {
+    Mesh mesh;
+    const double t = 0.13 * turn;
+    mesh.positions = {{-0.9 + t, -0.8, -0.97}, {0.96, -0.7 + t, -0.9}, {-0.3, 0.93 - t, -0.8}, {0.2 - t, 0.15, 0.98}};
+    mesh.indices = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    return mesh;
+}
+
+Picture paint(const DisplayDescription& display, const Mesh& mesh, const std::string& color) {
+    host::FramePainter painter(display);
+    const Lattice lattice = painter.lattice().view();
+    const DisplayExtent room = extent(display);
+    const double reach = room.radius_mm > 0.0 ? room.radius_mm / 1.3 : (room.upper.x - room.lower.x) / 2.0;
+    const glm::dvec3 half{reach, room.radius_mm > 0.0 ? reach : (room.upper.y - room.lower.y) / 2.0,
+                          (room.upper.z - room.lower.z) / 2.0};
+    Mesh placed = mesh;
+    for (glm::dvec3& p : placed.positions) p = p * half + (room.lower + room.upper) / 2.0;
+
+    Picture picture;
+    auto volume = voxelize(placed.view(), lattice);
+    if (!volume) throw std::runtime_error(volume.error().message);
+    picture.volume = std::move(*volume);
+
+    const auto field = host::parse_color(color);
+    picture.frame.resize(frame_bytes(display));
+    if (painter.paint(picture.volume.view(), **field, picture.frame) != Status::Ok) throw std::runtime_error("paint");
+
+    glm::vec3 linear{};
+    const glm::vec3 anywhere{0.5f};
+    (*field)->evaluate({&anywhere, 1}, {&linear, 1});
+    const std::uint32_t code = host::quantize(linear, display.format);
+    picture.codes.resize(lattice.sample_count());
+    std::size_t sample = 0;
+    for (std::uint32_t z = 0; z < lattice.nz; ++z) {
+        for (std::uint32_t y = 0; y < lattice.ny; ++y) {
+            for (std::uint32_t x = 0; x < lattice.nx; ++x, ++sample) {
+                if (picture.volume.test(x, y, z)) picture.codes[sample] = code;
+            }
+        }
+    }
+    return picture;
+}
+
+namespace {
+
+std::pair<UniqueLink, UniqueLink> connect(Rig::Over over) {
+    if (over == Rig::Over::Loopback) return transport::make_loopback();
+    auto listener = transport::TcpListener::listen(0);
+    if (!listener) throw std::runtime_error(listener.error().message);
+    auto host_end = transport::connect_tcp("127.0.0.1", listener->port());
+    if (!host_end) throw std::runtime_error(host_end.error().message);
+    UniqueLink device_end;
+    while (listener->accept(device_end) == Status::WouldBlock) (void)listener->wait(1'000'000'000);
+    return {std::move(*host_end), std::move(device_end)};
+}
+
+sim::Simulator make_simulator(const DisplayDescription& display, Link link, const sim::Misbuild& misbuild) {
+    sim::SimulatorOptions options;
+    options.misbuild = misbuild;
+    auto simulator = sim::Simulator::make(display, link, options);
+    if (!simulator) throw std::runtime_error(simulator.error().message);
+    return std::move(*simulator);
+}
+
+host::SessionOptions patient() {
+    host::SessionOptions options;
+    options.attempts = 1000;
+    return options;
+}
+
+}  // namespace
+
+Rig::Rig(const DisplayDescription& display, Over over, const transport::FaultOptions& faults,
+         const sim::Misbuild& misbuild)
+    : Rig(display, connect(over), over == Over::Tcp, faults, misbuild) {}
+
+Rig::Rig(const DisplayDescription& display, std::pair<UniqueLink, UniqueLink> ends, bool in_kernel,
+         const transport::FaultOptions& faults, const sim::Misbuild& misbuild)
+    : host_end_(transport::with_faults(std::move(ends.first), faults)),
+      device_end_(std::move(ends.second)),
+      in_kernel_(in_kernel),
+      simulator_(make_simulator(display, device_end_.get(), misbuild)),
+      session_(host_end_.get(), display, patient()) {}
+
+void Rig::look() {
+    const std::span<const std::byte> page = simulator_.device().shown().page;
+    if (page.empty()) return;
+    const bool known =
+        std::any_of(sent_.begin(), sent_.end(), [&](const auto& frame) { return std::ranges::equal(frame, page); });
+    whole_ = whole_ && known;
+}
+
+bool Rig::show(const std::vector<std::byte>& frame) {
+    sent_.push_back(frame);
+    const std::uint64_t presented = session_.statistics().frames_presented;
+    bool submitted = false;
+    std::uint32_t looked_at = 0;
+    while (session_.state() != host::SessionState::Failed) {
+        const Status host_moved = session_.poll(now_ns_);
+        const Status device_moved = simulator_.poll(now_ns_);
+        if (const std::uint32_t frame_id = simulator_.device().shown().frame; frame_id != looked_at) {
+            looked_at = frame_id;
+            look();
+        }
+        if (!submitted) submitted = session_.submit(frame) == Status::Ok;
+        if (submitted && session_.idle() && session_.statistics().frames_presented > presented &&
+            simulator_.device().shown().frame == session_.last_accepted()) {
+            return true;
+        }
+        if (host_moved != Status::WouldBlock || device_moved != Status::WouldBlock) continue;
+        // Bytes may still be on their way through the kernel; time goes on only when nothing comes.
+        if (in_kernel_ && host_end_->wait(kLinkReadable, 1'000'000) == Status::Ok) continue;
+        now_ns_ = simulator_.next_boundary_ns();
+    }
+    return false;
+}
+
+}  // namespace xorvox::test

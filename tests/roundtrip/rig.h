@@ -1,0 +1,66 @@
+// The rig of the round trip: mesh → voxels → colours → frame → session → link → device → light → voxels.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "driver/display/description.h"
+#include "driver/host/session.h"
+#include "sim/rebuild.h"
+#include "sim/simulator.h"
+#include "transport/faults.h"
+#include "transport/link.h"
+#include "voxelizer/bit_volume.h"
+#include "voxelizer/mesh.h"
+
+namespace xorvox::test {
+
+/// A tetrahedron without any symmetry, within ±1; `turn` picks one of several different ones.
+Mesh lopsided(std::uint32_t turn);
+
+/// Voxels of one mesh on one display, and the frame that the host makes of them in one colour.
+struct Picture {
+    BitVolume volume;
+    std::vector<std::byte> frame;
+    std::vector<std::uint32_t> codes;  ///< One a sample of the display's lattice: the colour's code, or 0.
+};
+Picture paint(const DisplayDescription& display, const Mesh& mesh, const std::string& color);
+
+/// A host and a simulated display at the two ends of one link.
+class Rig {
+public:
+    enum class Over { Loopback, Tcp };
+
+    Rig(const DisplayDescription& display, Over over, const transport::FaultOptions& faults = {},
+        const sim::Misbuild& misbuild = {});
+
+    /// Sends the frame and moves both ends until it is presented or the session has failed. After every step what is
+    /// shown is dark or one of the frames sent, whole; `whole()` says so. True when it was presented.
+    bool show(const std::vector<std::byte>& frame);
+
+    bool whole() const { return whole_; }
+    sim::LightField light() const { return simulator_.light(); }
+    std::span<const std::byte> page() const { return simulator_.device().shown().page; }
+    const host::Session& session() const { return session_; }
+    transport::FaultCounts faults() const { return transport::fault_counts(host_end_.get()); }
+
+private:
+    Rig(const DisplayDescription& display, std::pair<UniqueLink, UniqueLink> ends, bool in_kernel,
+        const transport::FaultOptions& faults, const sim::Misbuild& misbuild);
+    void look();
+
+    UniqueLink host_end_;
+    UniqueLink device_end_;
+    bool in_kernel_ = false;
+    sim::Simulator simulator_;
+    host::Session session_;
+    std::vector<std::vector<std::byte>> sent_;
+    std::uint64_t now_ns_ = 0;
+    bool whole_ = true;
+};
+
+}  // namespace xorvox::test

@@ -1,0 +1,185 @@
+#include "tests/unit/device/rig.h"
+
+using namespace xorvox;
+using namespace xorvox::test;
+
+namespace {
+
+constexpr std::uint64_t kMs = 1'000'000;
+
+struct Lit : Desk {
+    Lit() {
+        hello();
+        accept(1, frame_of(1));
+        present();
+    }
+    DeviceStatus set(ControlOperation operation, std::uint32_t value) {
+        send(Control{.operation = operation, .value = value});
+        return answer<DeviceStatus>();
+    }
+    bool dark() const { return device.shown().page.empty(); }
+};
+
+}  // namespace
+
+TEST_CASE("two seconds without a packet blank the display, tell the host, and stay until the fault is cleared") {
+    Lit desk;
+    desk.now_ns += 2000 * kMs - kMs - 1;  // present() took a millisecond since the last packet
+    desk.work();
+    CHECK_FALSE(desk.dark());
+    desk.now_ns += 1;
+    desk.work();
+    CHECK(desk.dark());
+    const DeviceStatus told = desk.answer<DeviceStatus>();
+    CHECK(told.fault == Fault::SilentHost);
+    CHECK(told.blank == 1);
+
+    desk.accept(2, frame_of(2));
+    desk.present();
+    CHECK(desk.dark());
+    CHECK(desk.set(ControlOperation::ClearFault, 0).fault == Fault::None);
+    CHECK(desk.shown() == frame_of(2));
+}
+
+TEST_CASE("the display goes dark with the host and its link gone, and the next host learns why") {
+    Lit desk;
+    desk.link.closed = true;
+    CHECK(desk.device.poll(desk.now_ns) == Status::Closed);
+    desk.device.set_link({});
+    CHECK_FALSE(desk.dark());
+    desk.now_ns += 2000 * kMs;
+    CHECK(desk.device.poll(desk.now_ns) == Status::Closed);
+    CHECK(desk.dark());
+
+    desk.link.closed = false;
+    desk.device.set_link(desk.link.link());
+    CHECK(desk.hello().fault == Fault::SilentHost);
+    desk.set(ControlOperation::ClearFault, 0);
+    CHECK(desk.shown() == frame_of(1));
+}
+
+TEST_CASE("any valid packet of the session feeds the watchdog; bad, foreign and repeated ones do not") {
+    Lit desk;
+    const Bytes ping = desk.next_packet(Ping{});
+    for (int i = 0; i < 5; ++i) {
+        desk.now_ns += 1900 * kMs;
+        desk.send(Ping{});
+        desk.answer<Pong>();
+    }
+    CHECK_FALSE(desk.dark());
+    for (int i = 0; i < 4; ++i) {
+        desk.now_ns += 500 * kMs;
+        desk.put(ping);
+        desk.put(Bytes(40));
+        desk.put(packet_of(99, 1000, Ping{}));
+        desk.work();
+    }
+    CHECK(desk.dark());
+}
+
+TEST_CASE("with the hold policy the picture stays when the host is silent") {
+    Lit desk;
+    CHECK(desk.set(ControlOperation::SilencePolicy, 0).silence_action == SilenceAction::Hold);
+    desk.now_ns += 100'000 * kMs;
+    desk.work();
+    CHECK_FALSE(desk.dark());
+    CHECK(desk.device.status(desk.now_ns).fault == Fault::None);
+}
+
+TEST_CASE("the watchdog's time is the host's to set, and 0 turns it off") {
+    Lit desk;
+    CHECK(desk.set(ControlOperation::Watchdog, 10).watchdog_ms == 10);
+    desk.now_ns += 10 * kMs;
+    desk.work();
+    CHECK(desk.dark());
+    desk.answer<DeviceStatus>();
+    desk.set(ControlOperation::ClearFault, 0);
+    desk.set(ControlOperation::Watchdog, 0);
+    desk.now_ns += 100'000 * kMs;
+    desk.work();
+    CHECK_FALSE(desk.dark());
+    CHECK(desk.set(ControlOperation::Watchdog, 0xffffffffu).watchdog_ms == 0xffffffffu);
+    desk.now_ns += 100'000 * kMs;
+    desk.work();
+    CHECK_FALSE(desk.dark());
+}
+
+TEST_CASE("a device that nobody has spoken to misses nobody") {
+    Desk desk;
+    desk.now_ns += 100'000 * kMs;
+    desk.work();
+    CHECK(desk.hello().fault == Fault::None);
+}
+
+TEST_CASE("the host blanks and shows again") {
+    Lit desk;
+    CHECK(desk.set(ControlOperation::Blank, 1).blank == 1);
+    CHECK(desk.dark());
+    desk.accept(2, frame_of(2));
+    CHECK(desk.present().frame == 2);
+    CHECK(desk.dark());
+    CHECK(desk.set(ControlOperation::Blank, 0).blank == 0);
+    CHECK(desk.shown() == frame_of(2));
+}
+
+TEST_CASE("brightness reaches what is shown") {
+    Lit desk;
+    CHECK(desk.device.shown().brightness == 255);
+    CHECK(desk.set(ControlOperation::Brightness, 40).brightness == 40);
+    CHECK(desk.device.shown().brightness == 40);
+}
+
+TEST_CASE("unknown operations and values out of range are refused and change nothing") {
+    Lit desk;
+    for (const Control control : {Control{ControlOperation::Brightness, 256}, Control{ControlOperation::Blank, 2},
+                                  Control{ControlOperation::SilencePolicy, 2}, Control{ControlOperation::ClearFault, 1},
+                                  Control{ControlOperation::Status, 1}, Control{static_cast<ControlOperation>(0), 0},
+                                  Control{static_cast<ControlOperation>(77), 0}}) {
+        desk.send(control);
+        CHECK(desk.refusal(0) == NackReason::BadControl);
+    }
+    CHECK(desk.silent());
+    const DeviceStatus status = desk.device.status(desk.now_ns);
+    CHECK(status.brightness == 255);
+    CHECK(status.blank == 0);
+    CHECK(status.silence_action == SilenceAction::Blank);
+    CHECK(status.watchdog_ms == 2000);
+}
+
+TEST_CASE("status says what is shown and what happened") {
+    Lit desk;
+    desk.send_delta(5, frame_of(2), 4, frame_of(1));
+    CHECK(desk.refusal(5) == NackReason::NeedKeyframe);
+    const DeviceStatus status = desk.set(ControlOperation::Status, 0);
+    CHECK(status.has_frame == 1);
+    CHECK(status.shown_frame == 1);
+    CHECK(status.shown_crc == crc32c(frame_of(1)));
+    CHECK(status.free_pages == 1);
+    CHECK(status.frames_accepted == 1);
+    CHECK(status.frames_dropped == 1);
+    CHECK(status.device_time_ns == desk.now_ns);
+    CHECK(Desk().device.status(0).has_frame == 0);
+}
+
+TEST_CASE("a scanner's fault darkens at once, is told, and a silent host's does not hide it") {
+    Lit desk;
+    desk.device.raise_fault(Fault::Scan);
+    CHECK(desk.dark());
+    CHECK(desk.answer<DeviceStatus>().fault == Fault::Scan);
+    desk.now_ns += 5000 * kMs;
+    desk.work();
+    CHECK(desk.device.status(desk.now_ns).fault == Fault::Scan);
+
+    Lit other;
+    other.device.raise_fault(Fault::SilentHost);
+    other.device.raise_fault(Fault::Scan);
+    CHECK(other.device.status(other.now_ns).fault == Fault::Scan);
+}
+
+TEST_CASE("settings outlast the session") {
+    Lit desk;
+    desk.set(ControlOperation::Brightness, 12);
+    ++desk.session;
+    desk.hello();
+    CHECK(desk.set(ControlOperation::Status, 0).brightness == 12);
+}

@@ -1,0 +1,59 @@
+#include "tests/catch.h"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define XORVOX_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define XORVOX_SANITIZED
+#endif
+
+#ifndef XORVOX_SANITIZED  // The sanitizers bring their own operator new.
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "driver/display/toml.h"
+#include "driver/host/slices.h"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+}
+
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+using namespace xorvox;
+
+TEST_CASE("painting a frame allocates nothing") {
+    for (const char* name : {"cube16-ws2812", "vortex"}) {
+        const auto display = load_display(name).value();
+        const host::FramePainter painter(display);
+        BitVolume volume(painter.lattice().view());
+        for (std::uint32_t i = 0; i < 16; ++i) volume.view().flip(i, i, i);
+        std::vector<std::byte> frame(frame_bytes(display));
+        for (const char* color : {"constant:red", "gradient", "noise"}) {
+            const auto field = host::parse_color(color).value();
+            const std::size_t before = allocations;
+            const Status status = painter.paint(volume.view(), *field, frame);
+            const std::size_t after = allocations;
+            CHECK(status == Status::Ok);
+            CHECK(after == before);
+        }
+    }
+    CHECK(allocations > 0);
+}
+
+#endif

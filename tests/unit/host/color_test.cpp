@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "driver/host/color.h"
+#include "driver/host/color_space.h"
+#include "tests/catch.h"
+
+using namespace xorvox::host;
+using Catch::Matchers::Contains;
+
+namespace {
+
+glm::vec3 color_at(const std::string& spec, glm::vec3 point) {
+    const auto field = parse_color(spec);
+    if (!field) FAIL(field.error().message);
+    glm::vec3 color(-1);
+    (*field)->evaluate({&point, 1}, {&color, 1});
+    return color;
+}
+
+std::string message(const std::string& spec) {
+    const auto field = parse_color(spec);
+    REQUIRE_FALSE(field);
+    return field.error().message;
+}
+
+}  // namespace
+
+TEST_CASE("sRGB codes become linear light") {
+    CHECK(linear_from_srgb(0) == 0.0);
+    CHECK(linear_from_srgb(255) == 1.0);
+    for (int code = 0; code < 256; ++code) {
+        const double c = code / 255.0;
+        const double expected = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        CHECK(linear_from_srgb(static_cast<std::uint8_t>(code)) == Approx(expected).epsilon(1e-14));
+    }
+}
+
+TEST_CASE("a constant colour is a name or six hexadecimal digits") {
+    CHECK(color_at("constant:red", {0, 0, 0}) == glm::vec3(1, 0, 0));
+    CHECK(color_at("constant:cyan", {1, 1, 1}) == glm::vec3(0, 1, 1));
+    CHECK(color_at("constant:black", {1, 1, 1}) == glm::vec3(0));
+    CHECK(color_at("constant:orange", {0, 0, 0}) == color_at("constant:#ffa500", {1, 0, 0.5f}));
+    CHECK(color_at("constant:#FFaa00", {0, 0, 0}) == color_at("constant:#ffAA00", {0, 0, 0}));
+    const glm::vec3 gray = color_at("constant:gray", {0, 0, 0});
+    CHECK(gray.r == Approx(0.2158605));
+    CHECK(gray.r == gray.b);
+}
+
+TEST_CASE("a gradient runs from the bottom to the top") {
+    CHECK(color_at("gradient:red,blue", {0.2f, 0.9f, 0}).r == Approx(1.0f));
+    CHECK(color_at("gradient:red,blue", {0.2f, 0.9f, 0}).b == Approx(0.0f).margin(1e-6));
+    CHECK(color_at("gradient:red,blue", {0.5f, 0.1f, 1}).b == Approx(1.0f));
+    CHECK(color_at("gradient:#000000,white", {0, 0, 0}) == glm::vec3(0));
+    CHECK(color_at("gradient", {0, 0, 0.3f}) == color_at("gradient", {1, 1, 0.3f}));
+    const glm::vec3 gray = color_at("gradient:black,white", {0, 0, 0.5f});
+    CHECK(gray.g == Approx(0.125f).epsilon(1e-3));  // Half of the lightness is an eighth of the light.
+}
+
+TEST_CASE("colours have the same bits on every machine") {
+    const struct {
+        const char* spec;
+        float z;
+        glm::vec3 color;
+    } golden[] = {
+        {"gradient", 0.0f, {0x1.c0fd76p-7f, 0x1.ac8258p-4f, 0x1.fffffcp-1f}},
+        {"gradient", 0.25f, {0x1.72a9bcp-2f, 0x1.cd71a2p-4f, 0x1.48fec2p-1f}},
+        {"gradient", 0.5f, {0x1p+0f, 0x1.d1bb74p-6f, 0x1.67f824p-2f}},
+        {"gradient", 0.8f, {0x1p+0f, 0x1.30bc6ap-2f, 0x1.433d9ap-3f}},
+        {"gradient", 1.0f, {0x1p+0f, 0x1.1436a8p-1f, 0x1.527c1ep-7f}},
+        {"gradient:red,#00ff00", 0.25f, {0x1.b0e47p-1f, 0x1.61f068p-3f, 0x1.901004p-14f}},
+        {"gradient:red,#00ff00", 0.8f, {0x1.26b314p-2f, 0x1.755f46p-1f, 0x1.8f0db4p-14f}},
+        {"noise", 0.0f, {0x1.a1e2f4p-2f, 0x1.9c2b18p-1f, 0x1.404a5cp-4f}},
+        {"noise", 0.8f, {0x1.e5961cp-1f, 0x1.65142ap-1f, 0x1.93d59ap-8f}},
+        {"noise:10.5", 0.5f, {0x1p+0f, 0x1.832964p-2f, 0x1.5b5c56p-5f}},
+        {"noise:10.5", 1.0f, {0x1.bdd126p-8f, 0x1.7cdfe8p-3f, 0x1p+0f}},
+    };
+    for (const auto& [spec, z, color] : golden) {
+        INFO(spec << " at " << z);
+        CHECK(color_at(spec, {0.3f, 0.7f, z}) == color);
+    }
+}
+
+TEST_CASE("gradient and noise are bright everywhere, within 0 to 1, and vary") {
+    for (const char* spec : {"gradient", "noise", "noise:0.1", "noise:256"}) {
+        INFO(spec);
+        const auto field = parse_color(spec).value();
+        std::vector<glm::vec3> points;
+        for (int x = 0; x <= 20; ++x) {
+            for (int y = 0; y <= 20; ++y) {
+                for (int z = 0; z <= 20; ++z) points.push_back(glm::vec3(x, y, z) / 20.0f);
+            }
+        }
+        std::vector<glm::vec3> colors(points.size());
+        field->evaluate(points, colors);
+        bool varies = false;
+        for (const glm::vec3& c : colors) {
+            REQUIRE(std::max({c.r, c.g, c.b}) >= 0.5f);
+            REQUIRE(std::max({c.r, c.g, c.b}) <= 1.0f);
+            REQUIRE(std::min({c.r, c.g, c.b}) >= 0.0f);
+            varies = varies || c != colors[0];
+        }
+        CHECK(varies);
+    }
+}
+
+TEST_CASE("points outside the box get the nearest colour") {
+    CHECK(color_at("gradient", {0, 0, -5}) == color_at("gradient", {0, 0, 0}));
+    CHECK(color_at("gradient", {0, 0, 5}) == color_at("gradient", {0, 0, 1}));
+}
+
+TEST_CASE("a colour that is not understood is refused with what is allowed") {
+    for (const char* spec : {"", "rainbow", "constant", "red", "gradients", "gradient ", "Noise", ":"}) {
+        CHECK_THAT(message(spec),
+                   Contains(std::string("colour \"") + spec + "\"") && Contains("constant:#rrggbb, gradient,"));
+    }
+    CHECK_THAT(message("constant:redd"), Contains("unknown colour \"redd\"") && Contains("#rrggbb, black, silver"));
+    CHECK_THAT(message("constant:"), Contains("unknown colour \"\""));
+    for (const char* hex : {"#12345", "#1234567", "#12345g", "#-12345", "#", "# 12345", "#0x1234"}) {
+        CHECK_THAT(message(std::string("constant:") + hex), Contains("six hexadecimal digits"));
+    }
+    CHECK_THAT(message("gradient:red"), Contains("two colours with a comma"));
+    CHECK_THAT(message("gradient:red,bleu"), Contains("unknown colour \"bleu\""));
+    CHECK_THAT(message("gradient:rde,blue"), Contains("unknown colour \"rde\""));
+    CHECK_THAT(message("gradient:red,blue,gold"), Contains("unknown colour \"blue,gold\""));
+    for (const char* scale : {"", "x", "4x", "0", "-1", "nan", "inf", "1e9", "0.01"}) {
+        CHECK_THAT(message(std::string("noise:") + scale), Contains("a number from 0.1 to 256"));
+    }
+}

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "driver/host/noise.h"
+#include "tests/catch.h"
+
+using xorvox::host::perlin_noise;
+
+TEST_CASE("noise is zero at every point of whole coordinates") {
+    for (int x = -9; x <= 300; x += 7) {
+        for (int y = -300; y <= 9; y += 11) {
+            for (int z = -20; z <= 20; ++z) REQUIRE(perlin_noise(glm::vec3(x, y, z)) == 0.0f);
+        }
+    }
+}
+
+TEST_CASE("noise is continuous within and across cells") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> place(-20.0f, 20.0f);
+    for (int i = 0; i < 20000; ++i) {
+        glm::vec3 a(place(random), place(random), place(random));
+        const int axis = i % 3;
+        if (i % 2 == 0) a[axis] = std::round(a[axis]) - 0.0005f;  // The step of 0.001 crosses into the next cell.
+        glm::vec3 b = a;
+        b[axis] += 0.001f;
+        REQUIRE(std::abs(perlin_noise(a) - perlin_noise(b)) < 0.005f);
+    }
+}
+
+TEST_CASE("noise has the stated range, mean and size of features") {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> place(-100.0f, 100.0f);
+    double sum = 0;
+    double squares = 0;
+    float least = 0;
+    float most = 0;
+    constexpr int n = 400000;
+    for (int i = 0; i < n; ++i) {
+        const float value = perlin_noise({place(random), place(random), place(random)});
+        least = std::min(least, value);
+        most = std::max(most, value);
+        sum += value;
+        squares += double{value} * value;
+    }
+    CHECK(least >= -1.04f);
+    CHECK(most <= 1.04f);
+    CHECK(least < -0.8f);
+    CHECK(most > 0.8f);
+    CHECK(std::abs(sum / n) < 0.005);
+    CHECK(std::sqrt(squares / n) == Approx(0.27).margin(0.02));
+}
+
+TEST_CASE("noise repeats after 256 units and not before") {
+    int same = 0;
+    for (int i = 0; i < 256; ++i) {
+        const glm::vec3 p(0.25f, 0.5f, static_cast<float>(i) + 0.75f);
+        REQUIRE(perlin_noise(p) == perlin_noise(p + glm::vec3(256, 0, -256)));
+        same += perlin_noise(p) == perlin_noise(p + glm::vec3(0, 0, 128));
+    }
+    CHECK(same < 40);
+}
+
+TEST_CASE("noise has the same bits on every machine") {
+    CHECK(perlin_noise({0.5f, 0.5f, 0.5f}) == 0x1.8p-2f);
+    CHECK(perlin_noise({1.25f, -3.5f, 7.75f}) == -0x1.1a1d6p-1f);
+    CHECK(perlin_noise({100.1f, 200.2f, -300.3f}) == 0x1.e382d8p-3f);
+}

@@ -1,0 +1,143 @@
+#include "sim/simulator.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "driver/wire/messages.h"
+#include "tests/catch.h"
+#include "tests/unit/sim/displays.h"
+#include "transport/loopback.h"
+
+namespace xorvox {
+namespace {
+
+using namespace test;
+
+constexpr std::uint64_t kCycle_ns = 10'000'000;  // stack_of turns over 100 times a second
+
+/// A simulator, and a host that knows the wire alone.
+struct Bench {
+    DisplayDescription display = stack_of(5, 4, 3, PixelFormat::Rgb888);
+    std::pair<UniqueLink, UniqueLink> ends = transport::make_loopback();
+    sim::Simulator simulator = make(display, ends.second.get());
+    std::uint32_t sequence = 0;
+
+    static sim::Simulator make(const DisplayDescription& display, Link link) {
+        auto made = sim::Simulator::make(display, link);
+        REQUIRE(made.has_value());
+        return std::move(*made);
+    }
+
+    template <class Message>
+    void send(const Message& message) {
+        std::vector<std::byte> packet(wire::kMaxPacketBytes);
+        std::size_t size = 0;
+        REQUIRE(wire::encode_packet(3, sequence++, message, packet, size) == Status::Ok);
+        REQUIRE(ends.first->send(std::span(packet).first(size)) == Status::Ok);
+    }
+
+    void send_frame(std::uint32_t frame, const std::vector<std::byte>& page) {
+        send(wire::FrameBegin{.frame = frame, .frame_bytes = static_cast<std::uint32_t>(page.size())});
+        send(wire::Chunk{.frame = frame,
+                         .offset = 0,
+                         .decoded_length = static_cast<std::uint32_t>(page.size()),
+                         .codec = wire::Codec::Raw,
+                         .data = page});
+        send(wire::FrameEnd{.frame = frame, .page_crc = wire::crc32c(page)});
+    }
+
+    /// A page with one red pixel in `column` of the first row.
+    std::vector<std::byte> page_with(std::uint32_t column) const {
+        std::vector<std::byte> page = dark_page(display);
+        set_pixel(display, page, {.column = column}, 0xff);
+        return page;
+    }
+
+    void poll(std::uint64_t now_ns) { (void)simulator.poll(now_ns); }
+};
+
+TEST_CASE("a simulated display is dark until a frame was sent") {
+    Bench bench;
+    bench.poll(3 * kCycle_ns);
+    CHECK(bench.simulator.light().flashes.empty());
+}
+
+TEST_CASE("a frame lights up at the next boundary of a cycle and not before") {
+    Bench bench;
+    bench.poll(0);
+    bench.send(wire::HelloRequest{});
+    bench.send_frame(1, bench.page_with(2));
+    bench.poll(1);
+    bench.poll(kCycle_ns - 1);
+    CHECK(bench.simulator.light().flashes.empty());
+    CHECK(bench.simulator.next_boundary_ns() == kCycle_ns);
+    bench.poll(kCycle_ns);
+    CHECK(bench.simulator.next_boundary_ns() == 2 * kCycle_ns);
+    const sim::LightField field = bench.simulator.light();
+    REQUIRE(field.flashes.size() == 1);
+    CHECK(field.flashes[0].code == 0xff);
+    CHECK(field.flashes[0].light == glm::vec3(1.0f, 0.0f, 0.0f));
+    CHECK(field.flashes[0].place_mm == glm::dvec3(0.0, -4.5, -7.0));
+    CHECK(bench.simulator.device().status(kCycle_ns).shown_frame == 1);
+}
+
+TEST_CASE("a long pause ends at the boundary before now") {
+    Bench bench;
+    bench.poll(0);
+    bench.send(wire::HelloRequest{});
+    bench.send_frame(1, bench.page_with(0));
+    bench.poll(1);
+    bench.poll(50 * kCycle_ns + 5);
+    CHECK(bench.simulator.light().flashes.size() == 1);
+    CHECK(bench.simulator.next_boundary_ns() == 51 * kCycle_ns);
+}
+
+TEST_CASE("a host that falls silent for long leaves the display dark") {
+    Bench bench;
+    bench.send(wire::HelloRequest{});
+    bench.send_frame(1, bench.page_with(0));
+    bench.poll(1);
+    bench.poll(1'000'000'000 * kCycle_ns);
+    CHECK(bench.simulator.light().flashes.empty());
+}
+
+TEST_CASE("brightness and blanking by the host change the light") {
+    Bench bench;
+    bench.send(wire::HelloRequest{});
+    bench.send_frame(1, bench.page_with(0));
+    bench.send(wire::Control{.operation = wire::ControlOperation::Brightness, .value = 51});
+    bench.poll(1);
+    bench.poll(kCycle_ns);
+    REQUIRE(bench.simulator.light().flashes.size() == 1);
+    CHECK(bench.simulator.light().flashes[0].light.x == Approx(0.2f));
+    bench.send(wire::Control{.operation = wire::ControlOperation::Blank, .value = 1});
+    bench.poll(kCycle_ns + 1);
+    CHECK(bench.simulator.light().flashes.empty());
+}
+
+TEST_CASE("a misbuilt simulator shows the same frame elsewhere") {
+    Bench bench;
+    sim::SimulatorOptions options;
+    options.misbuild.mirrored_panel = 0;
+    auto mirrored = sim::Simulator::make(bench.display, bench.ends.second.get(), options);
+    REQUIRE(mirrored.has_value());
+    bench.send(wire::HelloRequest{});
+    bench.send_frame(1, bench.page_with(0));
+    (void)mirrored->poll(1);
+    (void)mirrored->poll(kCycle_ns);
+    REQUIRE(mirrored->light().flashes.size() == 1);
+    CHECK(mirrored->light().flashes[0].place_mm.x == 4.0);
+}
+
+TEST_CASE("sizes that no device has are refused in words") {
+    sim::SimulatorOptions options;
+    options.pages = 1;
+    const auto made = sim::Simulator::make(stack_of(2, 2, 2), Link{}, options);
+    REQUIRE_FALSE(made.has_value());
+    CHECK(made.error().message.find("1 pages, allowed 2 to 8") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace xorvox

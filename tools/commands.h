@@ -1,0 +1,68 @@
+// The subcommands of the xorvox program: their options as plain structs, and one function each. main.cpp fills the
+// structs from the command line; a returned Error is printed as one line, and the exit status is then 2.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+#include "voxelizer/error.h"
+
+namespace xorvox::tools {
+
+/// How a mesh file is to be read; shared by info, voxelize and show.
+struct MeshOptions {
+    std::string path;
+    std::string unit;      ///< Of the file's numbers, which then become millimetres; empty: as they are.
+    std::string up = "z";  ///< The file's axis that points up.
+    bool strict = false;   ///< Refuse open meshes.
+};
+
+/// `--grid`, `--origin` and `--pitch` as typed; `--size` instead of the three.
+struct GridOptions {
+    std::optional<std::uint32_t> size;
+    std::optional<glm::dvec3> grid;
+    std::optional<glm::dvec3> origin;
+    std::optional<glm::dvec3> pitch;
+};
+
+struct InfoOptions {
+    MeshOptions mesh;
+    bool json = false;
+};
+
+struct VoxelizeOptions {
+    MeshOptions mesh;
+    GridOptions grid;
+    std::string output;
+    bool json = false;
+};
+
+struct ShowOptions {
+    MeshOptions mesh;
+    std::string display;
+    std::string to = "loopback";
+    std::string color = "gradient";
+    std::string png;
+    std::string view = "perspective";
+    bool json = false;
+};
+
+struct SimOptions {
+    std::string display = "cube16-ws2812";
+    std::string listen;
+    bool json = false;
+};
+
+struct DisplaysOptions {
+    bool json = false;
+};
+
+Expected<void> info(const InfoOptions& options);
+Expected<void> voxelize(const VoxelizeOptions& options);
+Expected<void> show(const ShowOptions& options);
+Expected<void> sim(const SimOptions& options);
+Expected<void> displays(const DisplaysOptions& options);
+
+}  // namespace xorvox::tools

@@ -1,0 +1,30 @@
+// Console: what the program says besides its results: warnings, and progress on a terminal.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace xorvox::tools {
+
+/// One line on standard error, after "xorvox: warning: ".
+void warn(std::string_view message);
+
+/// 47815 as "47,815".
+std::string thousands(std::uint64_t number);
+
+/// `text` as a JSON string, quotes included. Bytes that are not UTF-8 become U+FFFD.
+std::string json_string(std::string_view text);
+
+/// While it lives and standard error is a terminal: after one second, a line with what is going on and for how long,
+/// renewed in place and wiped at the end. On a pipe, nothing.
+class Progress {
+public:
+    explicit Progress(std::string activity);
+
+private:
+    std::jthread thread_;
+};
+
+}  // namespace xorvox::tools

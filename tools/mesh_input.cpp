@@ -1,0 +1,46 @@
+#include "tools/mesh_input.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tools/console.h"
+#include "voxelizer/io/mesh_file.h"
+
+namespace xorvox::tools {
+
+Expected<MeshInput> read_input(const MeshOptions& options) {
+    io::MeshReadOptions read;
+    if (!options.unit.empty()) {
+        const Expected<double> scale = io::unit_in_mm(options.unit);
+        if (!scale) return fail("--unit: " + scale.error().message);
+        read.scale = *scale;
+    }
+    const Expected<io::UpAxis> up = io::up_axis(options.up);
+    if (!up) return fail("--up: " + up.error().message);
+    read.up = *up;
+
+    MeshInput input;
+    {
+        const Progress progress("reading " + options.path);
+        Expected<Mesh> mesh = io::read_mesh(options.path, read);
+        if (!mesh) return tl::unexpected(mesh.error());
+        input.mesh = std::move(*mesh);
+        input.report = io::report(input.mesh.view());
+    }
+    return input;
+}
+
+Expected<MeshInput> read_solid(const MeshOptions& options) {
+    Expected<MeshInput> input = read_input(options);
+    if (!input || input->report.closed_mod2) return input;
+    const std::size_t open = input->report.open_edges;
+    const std::string found =
+        fmt::format("{}: {} open {}", options.path, thousands(open), open == 1 ? "edge" : "edges");
+    if (options.strict)
+        return fail(found + ", and --strict wants a closed mesh; close its holes or leave out --strict");
+    warn(found + "; columns are counted from below, so holes may leave streaks (xorvox info tells more)");
+    return input;
+}
+
+}  // namespace xorvox::tools

@@ -1,0 +1,23 @@
+// The mesh of a command: read, judged, and warned about.
+#pragma once
+
+#include "tools/commands.h"
+#include "voxelizer/io/mesh_report.h"
+#include "voxelizer/mesh.h"
+
+namespace xorvox::tools {
+
+/// A mesh and what is wrong with it.
+struct MeshInput {
+    Mesh mesh;
+    io::MeshReport report;
+};
+
+/// Reads and examines the mesh.
+Expected<MeshInput> read_input(const MeshOptions& options);
+
+/// The same for a mesh that is going to be filled: open edges are a warning on standard error, or an error with
+/// `strict`.
+Expected<MeshInput> read_solid(const MeshOptions& options);
+
+}  // namespace xorvox::tools

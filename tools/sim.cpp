@@ -1,0 +1,129 @@
+// sim: a display in a program of its own, for clients over tcp. One at a time; the picture outlives its client.
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "driver/display/toml.h"
+#include "sim/simulator.h"
+#include "sim/statistics.h"
+#include "tools/commands.h"
+#include "tools/console.h"
+#include "transport/address.h"
+#include "transport/tcp.h"
+
+namespace xorvox::tools {
+namespace {
+
+std::atomic<bool> asked_to_stop = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
+
+void stop_on_signals() {
+    struct sigaction action = {};
+    action.sa_handler = [](int) { asked_to_stop = true; };
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+std::uint64_t clock_ns() {
+    return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
+                                      std::chrono::nanoseconds(1));
+}
+
+/// Lines for people, or objects for programs, at once: a reader at a pipe sees them when they happen.
+class Events {
+public:
+    Events(const DisplayDescription& display, bool json) : display_(display), json_(json) {}
+
+    void listening(const std::string& address) {
+        json_ ? fmt::print("{{\"event\": \"listening\", \"address\": {}, \"display\": {}}}\n", json_string(address),
+                           json_string(display_.name.view()))
+              : fmt::print("{}: listening on {}\n", display_.name.view(), address);
+        std::fflush(stdout);
+    }
+    void client(bool arrived) {
+        const char* what = arrived ? "connected" : "disconnected";
+        json_ ? fmt::print("{{\"event\": \"{}\"}}\n", what) : fmt::print("client {}\n", what);
+        std::fflush(stdout);
+    }
+    /// Says what is shown when it is another frame than at the last call, or dark when it was not.
+    void shown(const sim::Simulator& simulator, std::uint64_t now_ns) {
+        const wire::DeviceStatus status = simulator.device().status(now_ns);
+        const std::uint64_t key =
+            status.has_frame == 0 ? 0 : std::uint64_t{status.shown_frame} << 2 | (status.blank != 0 ? 3u : 1u);
+        if (key == last_) return;
+        last_ = key;
+        const sim::LightField light = simulator.light();
+        if (json_) {
+            std::string object = sim::to_json(sim::measure(display_, light, status));
+            while (object.ends_with('\n')) object.pop_back();
+            fmt::print("{{\"event\": \"shown\", \"light\": {}}}\n", object);
+        } else if (status.blank != 0) {
+            fmt::print("dark: {}\n", status.fault == wire::Fault::SilentHost ? "the host fell silent" : "blanked");
+        } else {
+            fmt::print("frame {}: {} pixels lit\n", status.shown_frame, thousands(light.flashes.size()));
+        }
+        std::fflush(stdout);
+    }
+
+private:
+    const DisplayDescription& display_;
+    bool json_;
+    std::uint64_t last_ = 0;  ///< Frame and blanking, or 0 before the first frame.
+};
+
+std::int64_t until_ns(std::uint64_t deadline_ns, std::uint64_t now_ns) {
+    return deadline_ns > now_ns ? static_cast<std::int64_t>(deadline_ns - now_ns) : 0;
+}
+
+}  // namespace
+
+Expected<void> sim(const SimOptions& options) {
+    const Expected<transport::Address> address = transport::parse_address(options.listen);
+    if (!address) return fail("--listen: " + address.error().message);
+    if (address->kind != transport::AddressKind::Tcp) {
+        return fail(fmt::format("--listen {}: a simulated display is reached by tcp; use tcp:PORT", options.listen));
+    }
+    const Expected<DisplayDescription> display = load_display(options.display);
+    if (!display) return tl::unexpected(display.error());
+    Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{});
+    if (!simulator) return tl::unexpected(simulator.error());
+    Expected<transport::TcpListener> listener = transport::TcpListener::listen(address->port, address->host);
+    if (!listener) return tl::unexpected(listener.error());
+
+    stop_on_signals();
+    Events events(*display, options.json);
+    transport::Address actual = *address;
+    actual.port = listener->port();
+    events.listening(transport::to_string(actual));
+
+    UniqueLink client;
+    while (!asked_to_stop) {
+        const std::uint64_t now_ns = clock_ns();
+        if (!client && listener->accept(client) == Status::Ok) {
+            events.client(true);
+            simulator->set_link(client.get());
+        }
+        const Status moved = simulator->poll(now_ns);
+        events.shown(*simulator, now_ns);
+        if (client && moved == Status::Closed) {
+            simulator->set_link(Link{});
+            client.reset();
+            events.client(false);
+            continue;
+        }
+        if (moved == Status::Ok) continue;
+        const std::int64_t idle_ns = until_ns(simulator->next_boundary_ns(), clock_ns());
+        // Ok, Timeout or a signal: the loop looks at everything again.
+        if (client) {
+            (void)client->wait(kLinkReadable, idle_ns);
+        } else {
+            (void)listener->wait(idle_ns);
+        }
+    }
+    return {};
+}
+
+}  // namespace xorvox::tools

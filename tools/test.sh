@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Runs every test of the project, installing what is missing. `--quick`: the unit tests only.
+# Prints the time of each stage, and the number of tests per tier against tests/minimum.txt. With CI=true a run of more
+# than 40 minutes is a failure.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. tools/packages.sh
+
+quick=false
+for argument in "$@"; do
+    case "$argument" in
+        --quick) quick=true ;;
+        *) echo "usage: tools/test.sh [--quick]" >&2; exit 2 ;;
+    esac
+done
+
+began=$SECONDS
+summary=()
+export CTEST_PARALLEL_LEVEL=${CTEST_PARALLEL_LEVEL:-$(nproc)}
+mkdir -p build
+
+# stage NAME COMMAND …: runs it, quietly unless it fails, and notes the time.
+stage() {
+    local name=$1 start=$SECONDS log="build/stage-${1// /-}.log"
+    shift
+    echo "== $name"
+    if ! "$@" >"$log" 2>&1; then
+        grep -E '(\*\*\*|error:|FAILED|Failed)' "$log" | head -n 40 >&2 || true
+        tail -n 60 "$log" >&2
+        echo "== $name failed after $((SECONDS - start)) s; the whole output is in $log" >&2
+        exit 1
+    fi
+    summary+=("$(printf '%5d s  %s' $((SECONDS - start)) "$name")")
+}
+build() { cmake --preset "$1" && cmake --build "build/$1" --target "${@:2}"; }
+
+# ctest_in PRESET ARGUMENTS …: runs tests and repeats why any were skipped.
+ctest_in() {
+    local preset=$1
+    shift
+    ctest --test-dir "build/$preset" --output-on-failure --no-tests=error "$@"
+}
+skip_reasons() {
+    local log=build/dev/Testing/Temporary/LastTest.log
+    [ -f "$log" ] && grep -h '^SKIPPED:' "$log" | sort | uniq -c || true
+}
+
+# Each tier has at least as many tests as tests/minimum.txt promises.
+count_tests() {
+    local tier minimum count short=false
+    while read -r tier minimum; do
+        case "$tier" in ''|'#'*) continue ;; esac
+        count=$(ctest --test-dir build/dev -N -L "^$tier\$" | sed -n 's/^Total Tests: //p')
+        printf '%6d tests  %-10s (at least %d)\n' "$count" "$tier" "$minimum"
+        [ "$count" -ge "$minimum" ] || { echo "tier $tier has lost tests: $count of $minimum" >&2; short=true; }
+    done <tests/minimum.txt
+    [ $short = false ]
+}
+
+need $packages_build $packages_test
+export XORVOX_REQUIRE=${XORVOX_REQUIRE:-}
+
+if $quick; then
+    stage "build dev" build dev all
+    stage "unit tests" ctest_in dev -L unit
+    skip_reasons
+else
+    stage "build dev" build dev all
+    stage "headers compile alone" cmake --build build/dev --target all_verify_interface_header_sets
+    stage "all tests" ctest_in dev
+    skip_reasons
+    count_tests
+    stage "build asan" build asan all
+    stage "asan" ctest_in asan -L '^(unit|contract)$'
+    stage "build tsan" build tsan contract_transport unit_session
+    stage "tsan" ctest_in tsan -R '^(contract.transport|unit.session)'
+    stage "build with clang, fuzzers" build fuzz fuzzers xorvox
+    stage "fuzz, 60 s over all targets" tools/fuzz.sh 60
+fi
+
+echo
+printf '%s\n' "${summary[@]}"
+total=$((SECONDS - began))
+printf '%5d s  in all\n' $total
+if [ "${CI:-}" = true ] && [ $total -gt 2400 ]; then
+    echo "the whole run may take 40 minutes at most" >&2
+    exit 1
+fi
+cat build/stage-all-tests.log build/stage-unit-tests.log 2>/dev/null | grep -E '^[0-9]+% tests passed' | tail -n 1

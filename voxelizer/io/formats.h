@@ -1,0 +1,18 @@
+// What the parsers share with mesh_file.cpp. Private to voxelizer/io.
+#pragma once
+
+#include <string_view>
+
+#include "voxelizer/error.h"
+
+namespace xorvox::io {
+
+/// An error when `bytes` are none or more than kMaxMeshFileBytes.
+Expected<void> check_size(std::string_view bytes, std::string_view source);
+
+bool begins_like_ply(std::string_view bytes);
+bool begins_like_text_stl(std::string_view bytes);
+/// Whether the size is 84 + 50 × the count at byte 80.
+bool has_size_of_binary_stl(std::string_view bytes);
+
+}  // namespace xorvox::io

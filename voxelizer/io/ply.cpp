@@ -1,0 +1,266 @@
+// PLY 1.0 (Greg Turk): the header says which elements follow and of what their entries consist; then come the entries.
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "voxelizer/io/formats.h"
+#include "voxelizer/io/load.h"
+#include "voxelizer/io/mesh_builder.h"
+#include "voxelizer/io/mesh_file.h"
+#include "voxelizer/io/ply_header.h"
+#include "voxelizer/io/text_scanner.h"
+
+namespace xorvox::io {
+namespace {
+
+constexpr const char* kTooFew = "the line has too few values";
+constexpr const char* kCutShort = "the file ends here; it was cut short";
+
+// Values that each list must have, besides its length.
+constexpr std::size_t least_items(const PlyProperty& property) {
+    return property.role == PlyRole::Corners ? 3 : 0;
+}
+
+// TextValues and BinaryValues: the values of the entries, one after the other. What fails returns false and says why in
+// wrong(); where() is the place of the value read last.
+
+class TextValues {
+public:
+    TextValues(std::string_view bytes, const PlyHeader& header)
+        : scanner_(bytes.substr(header.data_offset), TextScanner::Dialect::Plain, header.data_line) {}
+
+    /// Whether all entries of `element` can be in what is left: a digit and a separator for each value.
+    bool has_room_for(const PlyElement& element) const {
+        std::size_t least = 0;
+        for (const PlyProperty& property : element.properties) {
+            least += 2 * (1 + least_items(property));
+        }
+        return element.count <= (scanner_.bytes_left() + 1) / least;
+    }
+    bool begin_entry() { return scanner_.next_line() || failed(kCutShort); }
+    bool number(PlyType, double& value) { return read(value); }
+    bool integer(PlyType, std::int64_t& value) { return read(value); }
+    /// What is passed over need not be a number: normals of faces without area are "nan".
+    bool skip(PlyType, std::uint64_t count) {
+        for (; count > 0; --count) {
+            if (scanner_.word().empty()) return failed(kTooFew);
+        }
+        return true;
+    }
+    bool end_entry() {
+        const std::string_view word = scanner_.word();
+        return word.empty() || failed(fmt::format("unexpected {} after the last value of the line", quoted(word)));
+    }
+    bool at_end() {
+        return !scanner_.next_line() ||
+               failed(fmt::format("unexpected {} after the last element", quoted(scanner_.word())));
+    }
+
+    std::string where() const { return fmt::format("line {}", scanner_.line()); }
+    const std::string& wrong() const { return wrong_; }
+
+private:
+    template <class Number>
+    bool read(Number& value) {
+        const std::string_view word = scanner_.word();
+        if (word.empty()) return failed(kTooFew);
+        const char* wrong = read_number(word, value);
+        return !wrong || failed(fmt::format("{} {}", quoted(word), wrong));
+    }
+    bool failed(std::string wrong) {
+        wrong_ = std::move(wrong);
+        return false;
+    }
+
+    TextScanner scanner_;
+    std::string wrong_;
+};
+
+class BinaryValues {
+public:
+    BinaryValues(std::string_view bytes, const PlyHeader& header)
+        : bytes_(bytes),
+          next_(header.data_offset),
+          order_(header.encoding == PlyEncoding::BinaryBigEndian ? std::endian::big : std::endian::little) {}
+
+    bool has_room_for(const PlyElement& element) const {
+        std::size_t least = 0;
+        for (const PlyProperty& property : element.properties) {
+            least += property.is_list ? size_of(property.count_type) + least_items(property) * size_of(property.type)
+                                      : size_of(property.type);
+        }
+        return element.count <= left() / least;
+    }
+    bool begin_entry() { return true; }
+    bool number(PlyType type, double& value) {
+        if (!take(size_of(type))) return false;
+        value = type == PlyType::Float32   ? static_cast<double>(load<float>(at(), order_))
+                : type == PlyType::Float64 ? load<double>(at(), order_)
+                                           : static_cast<double>(load_integer(type));
+        if (!std::isfinite(value)) return failed(fmt::format("the value {} is not a finite number", value));
+        return true;
+    }
+    bool integer(PlyType type, std::int64_t& value) {
+        if (!take(size_of(type))) return false;
+        value = load_integer(type);
+        return true;
+    }
+    bool skip(PlyType type, std::uint64_t count) {
+        place_ = next_;
+        if (count > left() / size_of(type)) return failed(kCutShort);
+        next_ += static_cast<std::size_t>(count) * size_of(type);
+        return true;
+    }
+    bool end_entry() { return true; }
+    bool at_end() {
+        place_ = next_;
+        return left() == 0 ||
+               failed(
+                   fmt::format("{} more bytes after the last element; cut them off or export the mesh again", left()));
+    }
+
+    std::string where() const { return fmt::format("byte {}", place_); }
+    const std::string& wrong() const { return wrong_; }
+
+private:
+    std::size_t left() const { return bytes_.size() - next_; }
+    const char* at() const { return bytes_.data() + place_; }
+    bool take(std::size_t size) {
+        place_ = next_;
+        if (size > left()) return failed(kCutShort);
+        next_ += size;
+        return true;
+    }
+    std::int64_t load_integer(PlyType type) const {
+        switch (type) {
+            case PlyType::Int8: return load<std::int8_t>(at(), order_);
+            case PlyType::Uint8: return load<std::uint8_t>(at(), order_);
+            case PlyType::Int16: return load<std::int16_t>(at(), order_);
+            case PlyType::Uint16: return load<std::uint16_t>(at(), order_);
+            case PlyType::Int32: return load<std::int32_t>(at(), order_);
+            case PlyType::Uint32: return load<std::uint32_t>(at(), order_);
+            case PlyType::Float32:
+            case PlyType::Float64: break;
+        }
+        return 0;
+    }
+    bool failed(std::string wrong) {
+        wrong_ = std::move(wrong);
+        return false;
+    }
+
+    std::string_view bytes_;
+    std::size_t next_;
+    std::endian order_;
+    std::size_t place_ = 0;
+    std::string wrong_;
+};
+
+template <class Values>
+class BodyParser {
+public:
+    BodyParser(std::string_view bytes, const PlyHeader& header, std::string_view source)
+        : header_(header), source_(source), values_(bytes, header) {}
+
+    Expected<Mesh> parse() && {
+        for (const PlyElement& element : header_.elements) {
+            if (!parse_element(element)) return fail(std::move(error_));
+        }
+        if (!values_.at_end()) return fail(fmt::format("{}: {}: {}", source_, values_.where(), values_.wrong()));
+        return std::move(builder_).finish(source_);
+    }
+
+private:
+    bool parse_element(const PlyElement& element) {
+        entry_ = 0;
+        if (element.properties.empty()) return true;
+        if (!values_.has_room_for(element)) {
+            error_ = fmt::format(
+                "{}: {} entries of element {} announced, but the file is too short for them; it was cut short or its "
+                "header is wrong",
+                source_, element.count, quoted(element.name));
+            return false;
+        }
+        if (element.name == "vertex") builder_.reserve_vertices(static_cast<std::size_t>(element.count));
+        if (element.name == "face") builder_.reserve_triangles(static_cast<std::size_t>(element.count));
+        for (; entry_ < element.count; ++entry_) {
+            if (!parse_entry(element)) return failed(element);
+        }
+        return true;
+    }
+
+    bool parse_entry(const PlyElement& element) {
+        if (!values_.begin_entry()) return false;
+        glm::dvec3 position{0.0};
+        for (const PlyProperty& property : element.properties) {
+            if (!parse_value(property, position)) return false;
+        }
+        if (element.name == "vertex") builder_.add_vertex(position);
+        return values_.end_entry();
+    }
+
+    bool parse_value(const PlyProperty& property, glm::dvec3& position) {
+        switch (property.role) {
+            case PlyRole::X: return values_.number(property.type, position.x);
+            case PlyRole::Y: return values_.number(property.type, position.y);
+            case PlyRole::Z: return values_.number(property.type, position.z);
+            case PlyRole::Corners: return parse_face(property);
+            case PlyRole::Skipped: break;
+        }
+        if (!property.is_list) return values_.skip(property.type, 1);
+        std::int64_t length = 0;
+        if (!values_.integer(property.count_type, length)) return false;
+        if (length < 0) return wrong(fmt::format("a list of {} values", length));
+        return values_.skip(property.type, static_cast<std::uint64_t>(length));
+    }
+
+    bool parse_face(const PlyProperty& property) {
+        std::int64_t corners = 0;
+        if (!values_.integer(property.count_type, corners)) return false;
+        if (corners < 3) return wrong(fmt::format("a polygon of {} corners; it needs at least three", corners));
+        for (; corners > 0; --corners) {
+            std::int64_t vertex = 0;
+            if (!values_.integer(property.type, vertex)) return false;
+            if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= header_.vertex_count) {
+                return wrong(fmt::format("vertex {} of a file with {}", vertex, header_.vertex_count));
+            }
+            builder_.add_corner(static_cast<std::uint32_t>(vertex));
+        }
+        builder_.end_face();
+        return true;
+    }
+
+    bool wrong(std::string what) {
+        wrong_ = std::move(what);
+        return false;
+    }
+
+    bool failed(const PlyElement& element) {
+        error_ = fmt::format("{}: {}: entry {} of element {}: {}; repair or export the mesh again", source_,
+                             values_.where(), entry_, quoted(element.name), wrong_.empty() ? values_.wrong() : wrong_);
+        return false;
+    }
+
+    const PlyHeader& header_;
+    std::string_view source_;
+    Values values_;
+    MeshBuilder builder_;
+    std::uint64_t entry_ = 0;
+    std::string wrong_;
+    std::string error_;
+};
+
+}  // namespace
+
+Expected<Mesh> parse_ply(std::string_view bytes, std::string_view source) {
+    if (auto ok = check_size(bytes, source); !ok) return tl::unexpected(std::move(ok.error()));
+    auto header = parse_ply_header(bytes, source);
+    if (!header) return tl::unexpected(std::move(header.error()));
+    if (header->encoding == PlyEncoding::Ascii) return BodyParser<TextValues>(bytes, *header, source).parse();
+    return BodyParser<BinaryValues>(bytes, *header, source).parse();
+}
+
+}  // namespace xorvox::io
