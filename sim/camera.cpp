@@ -19,7 +19,8 @@ double reach(std::span<const Target> targets, const glm::dvec3& side, const glm:
     double most = -std::numeric_limits<double>::infinity();
     for (const Target& target : targets) {
         const double touching = target.radius_mm * std::sqrt(1.0 + tangent * tangent);
-        most = std::max(most, glm::dot(target.place_mm, side) - tangent * glm::dot(target.place_mm, forward) + touching);
+        most =
+            std::max(most, glm::dot(target.place_mm, side) - tangent * glm::dot(target.place_mm, forward) + touching);
     }
     return most;
 }
@@ -48,8 +49,8 @@ Camera fit_camera(std::span<const Target> targets, double azimuth_deg, double el
     const double to_top = reach(targets, camera.up, camera.forward, tan_y);
     const double to_bottom = reach(targets, -camera.up, camera.forward, tan_y);
     const double back = std::max((to_right + to_left) / (2.0 * tan_x), (to_top + to_bottom) / (2.0 * tan_y));
-    camera.eye_mm = camera.right * ((to_right - to_left) / 2.0) + camera.up * ((to_top - to_bottom) / 2.0) -
-                    camera.forward * back;
+    camera.eye_mm =
+        camera.right * ((to_right - to_left) / 2.0) + camera.up * ((to_top - to_bottom) / 2.0) - camera.forward * back;
 
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = -nearest;

@@ -9,8 +9,8 @@
 
 namespace xorvox::sim {
 
-/// Right-handed; in the world's millimetres. A point p is seen at x = dot(p − eye, right) ÷ (depth·tan_x), −1 … 1 across
-/// the picture, and y likewise with `up`; depth = dot(p − eye, forward).
+/// Right-handed; in the world's millimetres. A point p is seen at x = dot(p − eye, right) ÷ (depth·tan_x), −1 … 1
+/// across the picture, and y likewise with `up`; depth = dot(p − eye, forward).
 struct Camera {
     glm::dvec3 eye_mm{0.0};
     glm::dvec3 right{1.0, 0.0, 0.0};
@@ -27,8 +27,8 @@ struct Target {
     double radius_mm = 0.0;
 };
 
-/// The camera nearest to `targets` (at least one) that sees all of them, from the side `azimuth_deg` (0: from -y, 90: from
-/// +x), `elevation_deg` above the horizon (−89 … 89). `aspect`: width ÷ height of the picture.
+/// The camera nearest to `targets` (at least one) that sees all of them, from the side `azimuth_deg` (0: from -y, 90:
+/// from +x), `elevation_deg` above the horizon (−89 … 89). `aspect`: width ÷ height of the picture.
 Camera fit_camera(std::span<const Target> targets, double azimuth_deg, double elevation_deg, double aspect);
 
 }  // namespace xorvox::sim

@@ -13,7 +13,7 @@ namespace {
 
 constexpr glm::vec3 kGroundTop(0.0055f, 0.0065f, 0.0095f);
 constexpr glm::vec3 kGroundBottom(0.0125f, 0.0145f, 0.0200f);
-constexpr float kWhite = 250.0f;  ///< What endless light becomes, of 255.
+constexpr float kWhite = 250.0f;       ///< What endless light becomes, of 255.
 constexpr float kGlowOnObject = 0.2f;  ///< More would take the contrast from the object's shading.
 
 /// The mean over 2·radius + 1 pixels along every row of `lines`, and rows become columns.
@@ -50,8 +50,8 @@ float srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
-/// 0 … 1, evenly spread over neighbouring pixels (interleaved gradient noise, Jimenez 2014): rounding by it instead of by a
-/// half keeps the dark ground from falling into bands.
+/// 0 … 1, evenly spread over neighbouring pixels (interleaved gradient noise, Jimenez 2014): rounding by it instead of
+/// by a half keeps the dark ground from falling into bands.
 float dither(std::uint32_t column, std::uint32_t row) {
     const double inner = 0.06711056 * column + 0.00583715 * row;
     const double outer = 52.9829189 * (inner - std::floor(inner));
@@ -91,8 +91,8 @@ Image develop(const Film& film, float glow) {
 }
 
 double covered_share(const Film& film) {
-    const auto covered = std::count_if(film.pixels.begin(), film.pixels.end(),
-                                       [](const glm::vec4& pixel) { return pixel.w >= 0.5f; });
+    const auto covered =
+        std::count_if(film.pixels.begin(), film.pixels.end(), [](const glm::vec4& pixel) { return pixel.w >= 0.5f; });
     return static_cast<double>(covered) / static_cast<double>(film.pixels.size());
 }
 

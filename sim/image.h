@@ -14,8 +14,8 @@ struct Image {
     std::vector<std::uint8_t> rgb;  ///< 3 · width · height.
 };
 
-/// A whole PNG file. The same image gives the same bytes: no date, no text. `image` must have at least one pixel and the
-/// size that it says. Throws std::bad_alloc.
+/// A whole PNG file. The same image gives the same bytes: no date, no text. `image` must have at least one pixel and
+/// the size that it says. Throws std::bad_alloc.
 std::vector<std::byte> encode_png(const Image& image);
 
 }  // namespace xorvox::sim

@@ -43,7 +43,9 @@ double along(std::uint32_t index, std::uint32_t count, double pitch) {
 
 using Turn = std::complex<double>;
 
-Turn turn_by(double turns) { return std::polar(1.0, 2.0 * std::numbers::pi * turns); }
+Turn turn_by(double turns) {
+    return std::polar(1.0, 2.0 * std::numbers::pi * turns);
+}
 
 /// Where the display is in its cycle while slice `slice` of the page is lit.
 struct Pose {
@@ -60,6 +62,10 @@ Pose pose_of(const DisplayDescription& display, std::uint32_t slice, const Misbu
         if (slice == b) place = a;
     }
     if (display.kind == DisplayKind::StackedPlanes) {
+        // A plane counter that starts late or early, and wraps.
+        const std::int64_t planes = display.slices;
+        const std::int64_t counted = std::int64_t{place} + misbuild.phase_slices;
+        place = static_cast<std::uint32_t>((counted % planes + planes) % planes);
         return {along(place, display.slices, display.plane_pitch_mm), {1.0, 0.0}};
     }
     const double turns = (place + 0.5 + misbuild.phase_slices) / display.slices;

@@ -19,9 +19,9 @@
 namespace xorvox::sim {
 namespace {
 
-constexpr std::uint32_t kFiner = 2;        ///< Drawn so many times larger, and averaged.
-constexpr double kFilled = 0.92;           ///< Share of a view's side that the display takes.
-constexpr float kFarthest = 0.3f;          ///< Brightness of what is at the back of the display.
+constexpr std::uint32_t kFiner = 2;  ///< Drawn so many times larger, and averaged.
+constexpr double kFilled = 0.92;     ///< Share of a view's side that the display takes.
+constexpr float kFarthest = 0.3f;    ///< Brightness of what is at the back of the display.
 constexpr float kGlow = 0.2f;
 constexpr glm::vec3 kInside(0.010f, 0.012f, 0.017f);  ///< Added to the ground where the display is.
 
@@ -38,7 +38,7 @@ constexpr std::array<View, 3> kViews = {{{0, 2, 1, -1.0}, {1, 2, 0, 1.0}, {0, 1,
 glm::dvec3 upright_half(const Voxel& voxel) {
     const glm::vec2 across = glm::abs(voxel.across);
     return kVoxelFilling * glm::vec3(across.x * voxel.half_mm.x + across.y * voxel.half_mm.y,
-                                across.y * voxel.half_mm.x + across.x * voxel.half_mm.y, voxel.half_mm.z);
+                                     across.y * voxel.half_mm.x + across.x * voxel.half_mm.y, voxel.half_mm.z);
 }
 
 /// One view, with a depth for each fine pixel.
@@ -70,8 +70,8 @@ public:
     void draw(const Voxel& voxel) {
         const glm::dvec3 half = upright_half(voxel);
         const glm::dvec3& place = voxel.place_mm;
-        const Range columns = range(column_at(place[view_.right] - half[view_.right]),
-                                    column_at(place[view_.right] + half[view_.right]));
+        const Range columns =
+            range(column_at(place[view_.right] - half[view_.right]), column_at(place[view_.right] + half[view_.right]));
         const Range rows = range(row_at(place[view_.up] + half[view_.up]), row_at(place[view_.up] - half[view_.up]));
         for (std::uint32_t row = rows.first; row < rows.last; ++row) {
             const double v = (up_mm(row) - place[view_.up]) / half[view_.up];

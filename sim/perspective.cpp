@@ -23,8 +23,8 @@
 namespace xorvox::sim {
 namespace {
 
-constexpr std::uint32_t kFiner = 2;     ///< Drawn so many times larger, and averaged.
-constexpr float kNear = 0.02f;          ///< In camera distances.
+constexpr std::uint32_t kFiner = 2;  ///< Drawn so many times larger, and averaged.
+constexpr float kNear = 0.02f;       ///< In camera distances.
 constexpr float kLineWidth_px = 1.1f;
 constexpr float kGlow = 0.35f;
 constexpr glm::vec3 kLineTint(0.030f, 0.038f, 0.052f);
@@ -124,8 +124,8 @@ public:
             gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, kinds[i].second, GL_RENDERBUFFER, targets_[i]);
         }
         if (gl_->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-            return fail(fmt::format("OpenGL cannot draw a picture of {} by {} pixels; ask for a smaller one", width,
-                                    height));
+            return fail(
+                fmt::format("OpenGL cannot draw a picture of {} by {} pixels; ask for a smaller one", width, height));
         }
         gl_->Viewport(0, 0, width, height);
         gl_->ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
@@ -163,8 +163,8 @@ public:
     void draw(const std::vector<Instance>& instances, std::initializer_list<GLint> sizes) {
         gl_->BindVertexArray(vertex_array_);
         gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_);
-        gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
-                        instances.data(), GL_STREAM_DRAW);
+        gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)), instances.data(),
+                        GL_STREAM_DRAW);
         GLuint attribute = 0;
         std::size_t offset = 0;
         for (const GLint size : sizes) {
@@ -217,7 +217,8 @@ Scene make_scene(const DisplayDescription& display, const LightField& field, con
     const std::vector<Voxel> voxels = visible_voxels(display, field);
     const std::vector<Segment> segments = outline(display);
     std::vector<Target> targets;
-    for (const Voxel& voxel : voxels) targets.push_back({voxel.place_mm, kVoxelFilling * glm::length(voxel.half_mm) / 1.7});
+    for (const Voxel& voxel : voxels)
+        targets.push_back({voxel.place_mm, kVoxelFilling * glm::length(voxel.half_mm) / 1.7});
     if (targets.empty()) {
         for (const Segment& segment : segments) targets.push_back({segment.from_mm, 0.0});
     }
@@ -282,8 +283,8 @@ Expected<Picture> render_perspective(const DisplayDescription& display, const Li
                                      const PictureOptions& options) {
     const auto between = [](auto value, auto low, auto high) { return value >= low && value <= high; };
     if (!between(options.width, 16u, 4096u) || !between(options.height, 16u, 4096u)) {
-        return fail(fmt::format("a picture of {} by {} pixels; allowed: 16 to 4096 a side", options.width,
-                                options.height));
+        return fail(
+            fmt::format("a picture of {} by {} pixels; allowed: 16 to 4096 a side", options.width, options.height));
     }
     if (!between(options.elevation_deg, -89.0, 89.0) || !between(options.azimuth_deg, -360.0, 360.0)) {
         return fail(fmt::format("a camera at azimuth {}, elevation {} degrees; allowed: -360 to 360 and -89 to 89",

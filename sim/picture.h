@@ -1,8 +1,8 @@
 // Pictures of a light field: a perspective view drawn with OpenGL, and orthographic views that need none.
 //
-// The eye of a picture sees what the eye of a person fuses: every place that flashed in the cycle, at once. Flashes at one
-// place are drawn as one voxel in the mean of their light. A voxel is drawn as large as the space it stands for and shaded
-// from the lie of its lit neighbours, so that they read as one solid.
+// The eye of a picture sees what the eye of a person fuses: every place that flashed in the cycle, at once. Flashes at
+// one place are drawn as one voxel in the mean of their light. A voxel is drawn as large as the space it stands for and
+// shaded from the lie of its lit neighbours, so that they read as one solid.
 #pragma once
 
 #include <cstdint>
@@ -38,9 +38,9 @@ struct Picture {
 Expected<Picture> render_perspective(const DisplayDescription& display, const LightField& field,
                                      const PictureOptions& options = {});
 
-/// Three views side by side at one scale, without OpenGL: front (from -y: x to the right, z up), side (from +x: y to the
-/// right, z up) and top (from +z: x to the right, y up). What is nearer is brighter. Each view is `side` pixels square.
-/// `side`: 16 … 2048.
+/// Three views side by side at one scale, without OpenGL: front (from -y: x to the right, z up), side (from +x: y to
+/// the right, z up) and top (from +z: x to the right, y up). What is nearer is brighter. Each view is `side` pixels
+/// square. `side`: 16 … 2048.
 Picture render_orthographic(const DisplayDescription& display, const LightField& field, std::uint32_t side = 480);
 
 }  // namespace xorvox::sim

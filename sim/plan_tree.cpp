@@ -57,8 +57,7 @@ PlanTree::Nearest PlanTree::nearest(glm::dvec2 place) const {
 std::vector<std::uint32_t> PlanTree::within(glm::dvec2 place, double radius) const {
     std::vector<std::uint32_t> indices;
     double limit_sq = radius * radius;
-    visit(0, nodes_.size(), 0, place, limit_sq,
-          [&](const Node& node, double) { indices.push_back(node.index); });
+    visit(0, nodes_.size(), 0, place, limit_sq, [&](const Node& node, double) { indices.push_back(node.index); });
     std::sort(indices.begin(), indices.end());
     return indices;
 }

@@ -14,8 +14,8 @@ constexpr double kSamePlace = 1e-6;  ///< In pitches. Far above rounding, far be
 constexpr std::uint32_t kNoGroup = std::numeric_limits<std::uint32_t>::max();
 
 double smallest_pitch_mm(const DisplayDescription& display) {
-    double pitch = display.kind == DisplayKind::StackedPlanes ? display.plane_pitch_mm
-                                                              : std::numeric_limits<double>::infinity();
+    double pitch =
+        display.kind == DisplayKind::StackedPlanes ? display.plane_pitch_mm : std::numeric_limits<double>::infinity();
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         pitch = std::min({pitch, display.panels[p].column_pitch_mm, display.panels[p].row_pitch_mm});
     }

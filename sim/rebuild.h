@@ -1,7 +1,8 @@
 // Rebuild: which of the display's declared samples gave the light that was seen, from the light's places alone.
 //
 // Several declared samples may stand at one place: two columns of a rotating panel pass it, half a turn apart. Which of
-// them was lit cannot be told from the place, so a flash counts for the place, and every sample of the place gets the count:
+// them was lit cannot be told from the place, so a flash counts for the place, and every sample of the place gets the
+// count:
 //
 //   DisplaySamples samples(display);
 //   samples.rebuild(simulator.light()) == samples.faithful(codes_sent)     // nothing lost, added, moved or recoloured
@@ -20,8 +21,8 @@
 
 namespace xorvox::sim {
 
-/// What is seen of each declared sample in one cycle. Sample (x, y, k) of the display's lattice (driver/display/lattice.h)
-/// is number (k·ny + y)·nx + x, as in a BitVolume.
+/// What is seen of each declared sample in one cycle. Sample (x, y, k) of the display's lattice
+/// (driver/display/lattice.h) is number (k·ny + y)·nx + x, as in a BitVolume.
 struct Rebuilt {
     std::vector<std::uint32_t> visits;      ///< Flashes at the sample's place.
     std::vector<std::uint64_t> code_total;  ///< The sum of their codes.
@@ -40,11 +41,12 @@ public:
     std::size_t height_count() const { return z_mm_.size(); }     ///< nz.
     std::size_t size() const { return column_count() * height_count(); }
 
-    /// A flash within this of its nearest sample is that sample's: a quarter of the smallest pitch (of columns, rows and
-    /// planes).
+    /// A flash within this of its nearest sample is that sample's: a quarter of the smallest pitch (of columns, rows
+    /// and planes).
     double reach_mm() const { return reach_mm_; }
 
-    /// Columns nearer to each other than a millionth of the smallest pitch are one group; each column is in exactly one.
+    /// Columns nearer to each other than a millionth of the smallest pitch are one group; each column is in exactly
+    /// one.
     std::size_t group_count() const { return group_begin_.size() - 1; }
     std::uint32_t group_of(std::size_t column) const { return group_of_[column]; }
     std::span<const std::uint32_t> columns_of(std::size_t group) const {
@@ -73,9 +75,9 @@ private:
     std::vector<double> z_mm_;
     double reach_mm_;
     PlanTree tree_;
-    std::vector<std::uint32_t> group_of_;     ///< One a column.
-    std::vector<std::uint32_t> columns_;      ///< Group after group.
-    std::vector<std::size_t> group_begin_;    ///< Start of each group in columns_, and the end.
+    std::vector<std::uint32_t> group_of_;   ///< One a column.
+    std::vector<std::uint32_t> columns_;    ///< Group after group.
+    std::vector<std::size_t> group_begin_;  ///< Start of each group in columns_, and the end.
 };
 
 /// DisplaySamples(display).rebuild(field).

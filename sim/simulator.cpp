@@ -64,17 +64,25 @@ Status Simulator::poll(std::uint64_t now_ns) {
     return self.device.poll(now_ns);
 }
 
-void Simulator::set_link(Link link) { impl_->device.set_link(link); }
+void Simulator::set_link(Link link) {
+    impl_->device.set_link(link);
+}
 
-std::uint64_t Simulator::next_boundary_ns() const { return (impl_->cycle + 1) * impl_->cycle_length_ns; }
+std::uint64_t Simulator::next_boundary_ns() const {
+    return (impl_->cycle + 1) * impl_->cycle_length_ns;
+}
 
 LightField Simulator::light() const {
     const device::Shown shown = impl_->device.shown();
     return expose(impl_->display, shown.page, shown.brightness, impl_->misbuild);
 }
 
-const device::Device& Simulator::device() const { return impl_->device; }
+const device::Device& Simulator::device() const {
+    return impl_->device;
+}
 
-const DisplayDescription& Simulator::display() const { return impl_->display; }
+const DisplayDescription& Simulator::display() const {
+    return impl_->display;
+}
 
 }  // namespace xorvox::sim

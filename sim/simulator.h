@@ -1,5 +1,6 @@
-// Simulator: the far end of the wire. The real device half behind a link, a panel that it scans out to, and the light that
-// the panel gives at each place. It knows the display's description and the bytes that arrive; never the host's volume.
+// Simulator: the far end of the wire. The real device half behind a link, a panel that it scans out to, and the light
+// that the panel gives at each place. It knows the display's description and the bytes that arrive; never the host's
+// volume.
 //
 //   link ─► device::Device ─► page ─► panel (pixels) ─► optics (flashes: place, colour, time) ─► picture, statistics
 #pragma once
@@ -30,8 +31,8 @@ public:
     Simulator& operator=(Simulator&&) noexcept;
     ~Simulator();
 
-    /// Lets the device receive, and turns the display on to `now_ns`: a boundary for each whole cycle that began since the
-    /// last call. Answers as Device::poll.
+    /// Lets the device receive, and turns the display on to `now_ns`: a boundary for each whole cycle that began since
+    /// the last call. Answers as Device::poll.
     Status poll(std::uint64_t now_ns);
 
     /// Another client; see Device::set_link.

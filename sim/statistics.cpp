@@ -91,13 +91,12 @@ Statistics measure(const DisplayDescription& display, const LightField& field, c
 
 std::string to_json(const Statistics& statistics) {
     const std::string frame = statistics.has_frame ? fmt::format("{}", statistics.frame) : "null";
-    const std::string ratio =
-        statistics.voxels_lit > 0 ? fmt::format("{:.6g}", statistics.brightness_ratio) : "null";
+    const std::string ratio = statistics.voxels_lit > 0 ? fmt::format("{:.6g}", statistics.brightness_ratio) : "null";
     return fmt::format(
         R"({{"display": {}, "samples": {}, "places": {}, "pixels_lit": {}, "voxels_lit": {}, "light_outside": {}, )"
         R"("brightness_ratio": {}, "frame": {}, "brightness": {}, "blank": {}}})",
-        quoted(statistics.display), statistics.samples, statistics.places, statistics.pixels_lit,
-        statistics.voxels_lit, statistics.light_outside, ratio, frame, statistics.brightness, statistics.blank);
+        quoted(statistics.display), statistics.samples, statistics.places, statistics.pixels_lit, statistics.voxels_lit,
+        statistics.light_outside, ratio, frame, statistics.brightness, statistics.blank);
 }
 
 }  // namespace xorvox::sim

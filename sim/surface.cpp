@@ -72,8 +72,7 @@ Bounds bounds_of(const LightField& field) {
 /// A number for each cell of a box of space.
 class Grid {
 public:
-    Grid(const Bounds& bounds, const Spacing& spacing)
-        : cell_mm_(spacing.across_mm, spacing.along_mm, spacing.up_mm) {
+    Grid(const Bounds& bounds, const Spacing& spacing) : cell_mm_(spacing.across_mm, spacing.along_mm, spacing.up_mm) {
         if (spacing.rotates) cell_mm_.x = cell_mm_.y = std::max(spacing.across_mm, spacing.along_mm);
         for (;; cell_mm_ *= 2.0) {
             const glm::dvec3 cells = glm::floor((bounds.upper - bounds.lower) / cell_mm_) + (1.0 + 2.0 * kMargin);
@@ -166,9 +165,8 @@ std::vector<Voxel> places_of(const LightField& field, const Bounds& bounds) {
                                   static_cast<std::uint64_t>(at.z);
         keyed.push_back({key, static_cast<std::uint32_t>(keyed.size())});
     }
-    std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-        return a.key != b.key ? a.key < b.key : a.flash < b.flash;
-    });
+    std::sort(keyed.begin(), keyed.end(),
+              [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.flash < b.flash; });
 
     std::vector<Voxel> voxels;
     for (std::size_t first = 0, last = 0; first < keyed.size(); first = last) {

@@ -11,7 +11,9 @@ namespace {
 // So that poll() returns in bounded time, however fast the host sends.
 constexpr int kPacketsPerPoll = 32;
 
-bool newer(std::uint32_t sequence, std::uint32_t than) { return static_cast<std::int32_t>(sequence - than) > 0; }
+bool newer(std::uint32_t sequence, std::uint32_t than) {
+    return static_cast<std::int32_t>(sequence - than) > 0;
+}
 
 }  // namespace
 
@@ -119,8 +121,8 @@ void Device::take(std::span<const std::byte> packet, std::uint64_t now_ns) {
     }
 }
 
-// A repeat of the request that began the session must not end it. A host that was started anew and chose the same session
-// counts from 0 again, but its clock went on.
+// A repeat of the request that began the session must not end it. A host that was started anew and chose the same
+// session counts from 0 again, but its clock went on.
 bool Device::begins_session(const Header& header, const HelloRequest& request) const {
     return header.session != session_ || newer(header.sequence, received_sequence_) ||
            request.host_time_ns > hello_host_time_ns_;
@@ -152,7 +154,6 @@ void Device::end_session() {
 
 void Device::set_link(Link link) {
     end_session();
-    sent_sequence_ = 0;
     link_ = link;
 }
 

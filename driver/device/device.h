@@ -6,8 +6,8 @@
 //
 //   receive ─► decode into the target page ─► check ─► pending ─► (boundary) ─► shown
 //
-// One thread (or the main loop) calls everything; `boundary()` and `shown()` may instead be called by one interrupt handler
-// as long as it does not interrupt `poll()` — the platform masks it there.
+// One thread (or the main loop) calls everything; `boundary()` and `shown()` may instead be called by one interrupt
+// handler as long as it does not interrupt `poll()` — the platform masks it there.
 #pragma once
 
 #include <array>
@@ -48,31 +48,33 @@ public:
     /// Ok; InvalidArgument (a null, a size out of its range); OutOfMemory (`pages` too small). Call once, first.
     Status init(const DeviceConfig& config, std::uint64_t now_ns);
 
-    /// Receives and answers what the link has, at most a bounded number of packets, and runs the watchdog. Call it often:
-    /// at least every millisecond where the watchdog matters; time never goes back. While the link takes no answers nothing
-    /// is received either, so none is lost. Ok; WouldBlock when nothing could be done; Closed when the link is gone or
-    /// its peer sent a packet beyond max_packet (the watchdog still runs: keep calling, or give another link).
+    /// Receives and answers what the link has, at most a bounded number of packets, and runs the watchdog. Call it
+    /// often: at least every millisecond where the watchdog matters; time never goes back. While the link takes no
+    /// answers nothing is received either, so none is lost. Ok; WouldBlock when nothing could be done; Closed when the
+    /// link is gone or its peer sent a packet beyond max_packet (the watchdog still runs: keep calling, or give another
+    /// link).
     Status poll(std::uint64_t now_ns);
 
-    /// The display's cycle begins anew (a turn, a sweep, a refresh): swaps in the newest page that is due. Nothing else ever
-    /// changes what is shown, but blanking.
+    /// The display's cycle begins anew (a turn, a sweep, a refresh): swaps in the newest page that is due. Nothing else
+    /// ever changes what is shown, but blanking.
     void boundary(std::uint64_t now_ns);
 
     /// What to scan out until the next boundary; dark while blanked, by command, by policy or by a fault.
     Shown shown() const;
 
-    /// Reports a fault from the scanner; latched, blanks, cleared by the host's command only. Of several the one with the
-    /// highest number is kept: a host that clears a silent host's must not light a panel that cannot be scanned.
+    /// Reports a fault from the scanner; latched, blanks, cleared by the host's command only. Of several the one with
+    /// the highest number is kept: a host that clears a silent host's must not light a panel that cannot be scanned.
     void raise_fault(wire::Fault fault);
 
-    /// The link changed (the caller accepted another client): the session ends, the picture stays as the silence policy says.
+    /// The link changed (the caller accepted another client): the session ends, the picture stays as the silence policy
+    /// says.
     void set_link(Link link);
 
     wire::DeviceStatus status(std::uint64_t now_ns) const;
 
 private:
-    /// What has to be said and was not yet taken by the link. A later answer of a kind replaces the one before; no packet
-    /// is received while any waits, so a frame's acceptance and refusal are never replaced.
+    /// What has to be said and was not yet taken by the link. A later answer of a kind replaces the one before; no
+    /// packet is received while any waits, so a frame's acceptance and refusal are never replaced.
     struct Answers {
         struct Refusal {
             std::uint16_t session = 0;

@@ -47,12 +47,12 @@ public:
     /// A free page is whole: it becomes the base, and pending until `due_ns`.
     void accept(std::uint32_t page, std::uint32_t frame, std::uint32_t crc, std::uint64_t due_ns);
 
-    /// Shows, of the pending pages that are due, the one due last (of equals the one accepted last) and frees the others.
-    /// False when none is due.
+    /// Shows, of the pending pages that are due, the one due last (of equals the one accepted last) and frees the
+    /// others. False when none is due.
     bool present(std::uint64_t now_ns);
 
-    /// There is no base any more, and of the pending pages only the one accepted last stays, due at once: what was accepted
-    /// is shown, and nothing that the next host cannot know of holds a page.
+    /// There is no base any more, and of the pending pages only the one accepted last stays, due at once: what was
+    /// accepted is shown, and nothing that the next host cannot know of holds a page.
     void end_session();
 
 private:

@@ -39,7 +39,8 @@ Status decode_chunk(const wire::Chunk& chunk, std::span<std::byte> place) {
 }  // namespace
 
 NackReason Receiver::begin(const wire::FrameBegin& begin, const Pages& pages) {
-    if (begin.frame_bytes != pages.frame_bytes() || (begin.flags & ~wire::kFrameDelta) != 0) return NackReason::BadFrame;
+    if (begin.frame_bytes != pages.frame_bytes() || (begin.flags & ~wire::kFrameDelta) != 0)
+        return NackReason::BadFrame;
     const bool delta = (begin.flags & wire::kFrameDelta) != 0;
     if (delta && (pages.base() == Pages::kNone || pages.page(pages.base()).frame != begin.base)) {
         return NackReason::NeedKeyframe;

@@ -332,7 +332,10 @@ struct Session::Impl {
             credits_ns = now_ns;
             return compose_message(Control{.operation = ControlOperation::Status});
         }
-        return now_ns - moved_ns >= kPingEveryNs && compose_message(Ping{.host_time_ns = now_ns});
+        if (now_ns - moved_ns < kPingEveryNs) return false;
+        // Its answer names the frame being shown: a lost Presented is made up for.
+        if (transfer.awaits_presentation()) return compose_message(Control{.operation = ControlOperation::Status});
+        return compose_message(Ping{.host_time_ns = now_ns});
     }
 
     bool compose_hello() {

@@ -48,7 +48,7 @@ void Transfer::submit(std::span<const std::byte> content, std::uint64_t present_
 void Transfer::encode(bool delta) {
     if (++id_ == 0) ++id_;  // In a Nack, 0 means no frame.
     if (failed_attempts_ == 0) first_id_ = id_;
-    const bool allowed = delta && has_base_ && failed_attempts_ == 0;
+    const bool allowed = delta && has_base_;
     encoder_.encode({.id = id_,
                      .content = content_,
                      .present_at_ns = present_at_ns_,

@@ -49,6 +49,8 @@ public:
     bool is_refused_by(const wire::Nack& message) const { return began() && message.frame == id_; }
     /// `frame` is being shown. Counted once for each accepted frame.
     void presented(std::uint32_t frame);
+    /// Whether the frame accepted last is not known to be shown.
+    bool awaits_presentation() const { return !unpresented_.empty(); }
 
 private:
     bool is_an_attempt(std::uint32_t frame) const;

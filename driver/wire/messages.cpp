@@ -11,21 +11,38 @@ template <class Type, class Message>
 concept Is = std::same_as<std::remove_const_t<Type>, Message>;
 
 // The fields of each message, once, for both directions: `visit` is a Writer, a Reader or a Counter.
-void fields(Is<HelloRequest> auto& m, auto& visit) { visit(m.major, m.minor, m.host_time_ns); }
+void fields(Is<HelloRequest> auto& m, auto& visit) {
+    visit(m.major, m.minor, m.host_time_ns);
+}
 void fields(Is<Hello> auto& m, auto& visit) {
     visit(m.major, m.minor, m.features, m.boot_nonce, m.serial, m.display, m.geometry_digest, m.format, m.planes,
-          m.frame_bytes, m.pages, m.max_packet_bytes, m.codecs, m.fault, m.free_pages, m.device_time_ns, m.host_time_ns);
+          m.frame_bytes, m.pages, m.max_packet_bytes, m.codecs, m.fault, m.free_pages, m.device_time_ns,
+          m.host_time_ns);
 }
-void fields(Is<FrameBegin> auto& m, auto& visit) { visit(m.frame, m.flags, m.base, m.frame_bytes, m.present_at_ns); }
-void fields(Is<Chunk> auto& m, auto& visit) { visit(m.frame, m.offset, m.decoded_length, m.codec, m.data); }
-void fields(Is<FrameEnd> auto& m, auto& visit) { visit(m.frame, m.page_crc); }
-void fields(Is<Control> auto& m, auto& visit) { visit(m.operation, m.value); }
-void fields(Is<Ping> auto& m, auto& visit) { visit(m.host_time_ns); }
-void fields(Is<Pong> auto& m, auto& visit) { visit(m.host_time_ns, m.device_time_ns); }
+void fields(Is<FrameBegin> auto& m, auto& visit) {
+    visit(m.frame, m.flags, m.base, m.frame_bytes, m.present_at_ns);
+}
+void fields(Is<Chunk> auto& m, auto& visit) {
+    visit(m.frame, m.offset, m.decoded_length, m.codec, m.data);
+}
+void fields(Is<FrameEnd> auto& m, auto& visit) {
+    visit(m.frame, m.page_crc);
+}
+void fields(Is<Control> auto& m, auto& visit) {
+    visit(m.operation, m.value);
+}
+void fields(Is<Ping> auto& m, auto& visit) {
+    visit(m.host_time_ns);
+}
+void fields(Is<Pong> auto& m, auto& visit) {
+    visit(m.host_time_ns, m.device_time_ns);
+}
 void fields(Is<Acknowledge> auto& m, auto& visit) {
     visit(m.stage, m.frame, m.page_crc, m.free_pages, m.device_time_ns);
 }
-void fields(Is<Nack> auto& m, auto& visit) { visit(m.reason, m.frame, m.free_pages, m.device_time_ns); }
+void fields(Is<Nack> auto& m, auto& visit) {
+    visit(m.reason, m.frame, m.free_pages, m.device_time_ns);
+}
 void fields(Is<DeviceStatus> auto& m, auto& visit) {
     visit(m.brightness, m.blank, m.silence_action, m.watchdog_ms, m.fault, m.shown_frame, m.has_frame, m.shown_crc,
           m.free_pages, m.frames_accepted, m.frames_dropped, m.packets_bad, m.device_time_ns);
@@ -99,8 +116,8 @@ private:
     bool whole_ = true;
 };
 
-// What cannot be, whatever the minor version. Numbers of enumerations are let through: a later minor version may have more
-// of them, and only the receiver knows what to answer.
+// What cannot be, whatever the minor version. Numbers of enumerations are let through: a later minor version may have
+// more of them, and only the receiver knows what to answer.
 bool can_be(const DisplayName& name) {
     std::size_t end = name.view().size();
     if (end == name.text.size()) return false;
@@ -115,7 +132,9 @@ bool can_be(const Hello& hello) {
 bool can_be(const Chunk& chunk) {
     return chunk.decoded_length > 0 && (chunk.codec != Codec::Raw || chunk.data.size() == chunk.decoded_length);
 }
-bool can_be(const auto&) { return true; }
+bool can_be(const auto&) {
+    return true;
+}
 
 template <class Message>
 Status encode_message(const Message& message, std::span<std::byte> out, std::size_t& size) {
@@ -140,11 +159,13 @@ Status decode_message(std::span<const std::byte> payload, Message& message) {
 
 }  // namespace
 
-#define XORVOX_WIRE_MESSAGE(Message)                                                               \
-    Status encode(const Message& message, std::span<std::byte> out, std::size_t& size) {           \
-        return encode_message(message, out, size);                                                 \
-    }                                                                                              \
-    Status decode(std::span<const std::byte> payload, Message& message) { return decode_message(payload, message); }
+#define XORVOX_WIRE_MESSAGE(Message)                                                     \
+    Status encode(const Message& message, std::span<std::byte> out, std::size_t& size) { \
+        return encode_message(message, out, size);                                       \
+    }                                                                                    \
+    Status decode(std::span<const std::byte> payload, Message& message) {                \
+        return decode_message(payload, message);                                         \
+    }
 
 XORVOX_WIRE_MESSAGE(HelloRequest)
 XORVOX_WIRE_MESSAGE(Hello)

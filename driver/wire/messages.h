@@ -1,7 +1,7 @@
 // Messages: the payloads, one struct each, with their encoders and decoders. driver/PROTOCOL.md draws the bytes.
 //
-// Fields stand in the payload in the order of the struct, little-endian, without padding. Decoders take payloads that are
-// longer than they know (a later minor version) and answer Corrupt to shorter ones and to values that cannot be.
+// Fields stand in the payload in the order of the struct, little-endian, without padding. Decoders take payloads that
+// are longer than they know (a later minor version) and answer Corrupt to shorter ones and to values that cannot be.
 // Freestanding: nothing here allocates; spans point into the packet.
 #pragma once
 
@@ -87,12 +87,12 @@ struct FrameEnd {
 };
 
 enum class ControlOperation : std::uint8_t {
-    Brightness = 1,   ///< value: 0 … 255.
-    Blank = 2,        ///< value: 1 dark, 0 show again.
+    Brightness = 1,     ///< value: 0 … 255.
+    Blank = 2,          ///< value: 1 dark, 0 show again.
     SilencePolicy = 3,  ///< value: SilenceAction when the watchdog runs out.
-    Watchdog = 4,     ///< value: milliseconds without a packet until the policy acts; 0 off.
-    ClearFault = 5,   ///< value: 0.
-    Status = 6,       ///< value: 0. The answer is a DeviceStatus.
+    Watchdog = 4,       ///< value: milliseconds without a packet until the policy acts; 0 off.
+    ClearFault = 5,     ///< value: 0.
+    Status = 6,         ///< value: 0. The answer is a DeviceStatus.
 };
 enum class SilenceAction : std::uint8_t { Hold = 0, Blank = 1 };
 
@@ -115,9 +115,9 @@ struct Pong {
 
 enum class AckStage : std::uint8_t { Received = 1, Accepted = 2, Presented = 3 };
 
-/// Device to host: how far a frame has come. Received: frame end is in, but the check takes time (driver/device checks as it
-/// receives and never says so); Accepted: checked, it will be shown unless a later one is due before a boundary comes;
-/// Presented: it is being shown, from device_time_ns on.
+/// Device to host: how far a frame has come. Received: frame end is in, but the check takes time (driver/device checks
+/// as it receives and never says so); Accepted: checked, it will be shown unless a later one is due before a boundary
+/// comes; Presented: it is being shown, from device_time_ns on.
 struct Acknowledge {
     static constexpr PacketType kType = PacketType::Acknowledge;
     AckStage stage{};
@@ -178,7 +178,8 @@ Status encode(const Acknowledge& message, std::span<std::byte> out, std::size_t&
 Status encode(const Nack& message, std::span<std::byte> out, std::size_t& size);
 Status encode(const DeviceStatus& message, std::span<std::byte> out, std::size_t& size);
 
-/// Writes `message` as one whole packet to the start of `out` and sets `size`. Ok, or OutOfMemory when `out` is too small.
+/// Writes `message` as one whole packet to the start of `out` and sets `size`. Ok, or OutOfMemory when `out` is too
+/// small.
 template <class Message>
 Status encode_packet(std::uint16_t session, std::uint32_t sequence, const Message& message, std::span<std::byte> out,
                      std::size_t& size) {

@@ -41,14 +41,14 @@ enum class PacketType : std::uint8_t {
 
 struct Header {
     PacketType type{};
-    std::uint16_t flags = 0;      ///< 0 in version 1; receivers ignore bits that they do not know.
-    std::uint16_t session = 0;    ///< Chosen by the host in HelloRequest; the device answers with it and drops others.
-    std::uint32_t sequence = 0;   ///< Counts the packets of a sender in a session, from 0, wrapping.
-    std::uint32_t length = 0;     ///< Bytes of payload.
+    std::uint16_t flags = 0;     ///< 0 in version 1; receivers ignore bits that they do not know.
+    std::uint16_t session = 0;   ///< Chosen by the host in HelloRequest; the device answers with it and drops others.
+    std::uint32_t sequence = 0;  ///< Counts the packets of a sender in a session, from 0, wrapping.
+    std::uint32_t length = 0;    ///< Bytes of payload.
 };
 
-/// CRC-32C (Castagnoli, reflected, initial and final value ~0) of `bytes`, continuing from `crc`: crc32c(b, crc32c(a)) is
-/// that of a followed by b.
+/// CRC-32C (Castagnoli, reflected, initial and final value ~0) of `bytes`, continuing from `crc`: crc32c(b, crc32c(a))
+/// is that of a followed by b.
 std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t crc = 0);
 
 /// Writes header, `payload` and CRC to the start of `out` and sets `size`. `payload` may already stand in `out` at
@@ -58,8 +58,8 @@ Status encode_packet(const Header& header, std::span<const std::byte> payload, s
                      std::size_t& size);
 
 /// Checks one whole packet and points `payload` into it.
-/// Ok; Corrupt (short, trailing bytes, magic, length or CRC wrong); Unsupported (another major version: `header` is set,
-/// because its layout and the CRC are the same in every version, so that any version can refuse any other).
+/// Ok; Corrupt (short, trailing bytes, magic, length or CRC wrong); Unsupported (another major version: `header` is
+/// set, because its layout and the CRC are the same in every version, so that any version can refuse any other).
 Status decode_packet(std::span<const std::byte> packet, Header& header, std::span<const std::byte>& payload);
 
 }  // namespace xorvox::wire

@@ -11,7 +11,7 @@ namespace {
 
 /// Expects the refusal of `arguments` and every fragment in its one line.
 void refused(const std::vector<std::string>& arguments, const std::vector<std::string>& fragments) {
-    const Outcome outcome = xorvox(arguments);
+    const Outcome outcome = run_program(arguments);
     CAPTURE(arguments, outcome.out, outcome.err);
     CHECK(outcome.status == 2);
     CHECK(outcome.out.empty());
@@ -81,9 +81,9 @@ TEST_CASE("grids that cannot be are refused", "[cli]") {
 TEST_CASE("a grid of more bytes than memory is refused before any work", "[cli]") {
     const Folder folder;
     const std::string mesh = folder.file("cube.obj", cube_obj(1.0));
-    const Outcome outcome = xorvox({"voxelize", mesh, "--grid", "4096,4096,4096", "--origin", "0,0,0", "--pitch", "1",
-                                    "-o", folder.path("out.bits")},
-                                   std::uint64_t{1} << 30);
+    const Outcome outcome = run_program({"voxelize", mesh, "--grid", "4096,4096,4096", "--origin", "0,0,0", "--pitch",
+                                         "1", "-o", folder.path("out.bits")},
+                                        std::uint64_t{1} << 30);
     CAPTURE(outcome.err);
     CHECK(outcome.status == 2);
     CHECK_THAT(outcome.err, Catch::Contains("8192 MiB") && Catch::Contains("1024 MiB"));
@@ -152,7 +152,7 @@ TEST_CASE("nobody at the other end is said plainly", "[cli]") {
 TEST_CASE("an open mesh is voxelized with a warning that counts the open edges, and refused with --strict", "[cli]") {
     const Folder folder;
     const std::string mesh = folder.file("open.obj", cube_obj(1.0, true));
-    const Outcome outcome = xorvox({"voxelize", mesh, "--size", "16", "-o", folder.path("open.nrrd")});
+    const Outcome outcome = run_program({"voxelize", mesh, "--size", "16", "-o", folder.path("open.nrrd")});
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.err, Catch::Contains("warning") && Catch::Contains("4 open edges"));
     refused({"voxelize", mesh, "--strict", "-o", folder.path("strict.nrrd")}, {"4 open edges", "--strict"});

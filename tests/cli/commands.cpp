@@ -12,7 +12,7 @@ namespace {
 const std::string kDuck = std::string(XORVOX_SOURCE_DIR) + "/examples/duck.ply";
 
 Outcome succeeds(const std::vector<std::string>& arguments) {
-    Outcome outcome = xorvox(arguments);
+    Outcome outcome = run_program(arguments);
     CAPTURE(arguments, outcome.out, outcome.err);
     REQUIRE(outcome.status == 0);
     REQUIRE(outcome.err.empty());
@@ -97,7 +97,7 @@ TEST_CASE("sim serves one client after another and ends when it is told to", "[c
         CHECK_THAT(display.line().value_or(""), Catch::Contains("pixels lit"));
         CHECK(display.line() == "client disconnected");
     }
-    const Outcome refused = xorvox({"show", kDuck, "--display", "vortex", "--to", address});
+    const Outcome refused = run_program({"show", kDuck, "--display", "vortex", "--to", address});
     CHECK(refused.status == 2);
     CHECK_THAT(refused.err, Catch::Contains("cube16-ws2812") && Catch::Contains("vortex"));
     CHECK(display.terminate() == 0);

@@ -37,7 +37,7 @@ TEST_CASE("models set as many voxels as an exact kernel counts", "[cli][models]"
             mesh = unpacked;
         }
         const Outcome outcome =
-            xorvox({"voxelize", mesh, "--size", count.size, "-o", folder.path("out.bits"), "--json"});
+            run_program({"voxelize", mesh, "--size", count.size, "-o", folder.path("out.bits"), "--json"});
         REQUIRE(outcome.status == 0);
         const std::size_t at = outcome.out.find("\"set\": ");
         REQUIRE(at != std::string::npos);

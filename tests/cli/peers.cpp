@@ -75,7 +75,7 @@ std::string garbage(std::size_t size) {
 }
 
 Outcome show_to(std::uint16_t port) {
-    return xorvox({"show", kDuck, "--display", "cube16-ws2812", "--to", "tcp:127.0.0.1:" + std::to_string(port)});
+    return run_program({"show", kDuck, "--display", "cube16-ws2812", "--to", "tcp:127.0.0.1:" + std::to_string(port)});
 }
 
 void is_one_line(const Outcome& outcome) {

@@ -65,7 +65,7 @@ int wait_for(pid_t pid) {
 
 }  // namespace
 
-Outcome xorvox(const std::vector<std::string>& arguments, std::uint64_t memory_limit_bytes) {
+Outcome run_program(const std::vector<std::string>& arguments, std::uint64_t memory_limit_bytes) {
     rlimit usual = {};
     getrlimit(RLIMIT_AS, &usual);
     if (memory_limit_bytes != 0) {

@@ -20,7 +20,7 @@ struct Outcome {
 
 /// Runs the program to its end. Standard input is empty. `memory_limit_bytes`: what its address space may grow to; 0 is
 /// no limit.
-Outcome xorvox(const std::vector<std::string>& arguments, std::uint64_t memory_limit_bytes = 0);
+Outcome run_program(const std::vector<std::string>& arguments, std::uint64_t memory_limit_bytes = 0);
 
 /// A program that runs beside the test; killed and reaped at the end.
 class Background {

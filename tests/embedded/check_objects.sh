@@ -1,7 +1,8 @@
 # usage: check_objects.sh NM OBJECT …: fails if an object calls the heap or throws.
 nm=$1
 shift
-found=$("$nm" -C -u "$@" | grep -E ' U (malloc|calloc|realloc|free|operator (new|delete).*|__cxa_.*|std::__throw.*|std::terminate.*)$')
+undefined=$("$nm" -C -u "$@") || exit 1
+found=$(echo "$undefined" | grep -E ' U (malloc|calloc|realloc|free|operator (new|delete).*|__cxa_.*|std::__throw.*|std::terminate.*)$')
 if [ -n "$found" ]; then
     echo "the voxelizer's core calls:"
     echo "$found"

@@ -1,5 +1,5 @@
-// Firmware of a display of 8 × 8 × 8 voxels whose link is the golden conversation: it answers every packet to the letter
-// and shows the pictures that were sent, or ends with status 1.
+// Firmware of a display of 8 × 8 × 8 voxels whose link is the golden conversation: it answers every packet to the
+// letter and shows the pictures that were sent, or ends with status 1.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -42,7 +42,10 @@ struct Script {
 };
 
 constexpr LinkOperations kScriptLink{
-    .info = [](const void*) { return LinkInfo{"script", wire::kMaxPacketBytes, true}; },
+    .info =
+        [](const void*) {
+            return LinkInfo{"script", wire::kMaxPacketBytes, true};
+        },
     .send =
         [](void* self, std::span<const std::byte> packet) {
             auto& script = *static_cast<Script*>(self);

@@ -1,4 +1,5 @@
-// Semihosting: the debugger, here QEMU, prints and ends the program for us (Arm, "Semihosting for AArch32 and AArch64").
+// Semihosting: the debugger, here QEMU, prints and ends the program for us (Arm, "Semihosting for AArch32 and
+// AArch64").
 #pragma once
 
 namespace semihosting {

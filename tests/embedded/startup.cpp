@@ -55,5 +55,6 @@ void semihosting::exit(int status) {
     constexpr std::uintptr_t kExitExtended = 0x20;
     const std::uintptr_t application_exit[] = {0x20026, static_cast<std::uintptr_t>(status)};
     call_host(kExitExtended, application_exit);
-    for (;;) {}
+    for (;;) {
+    }
 }

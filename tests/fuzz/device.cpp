@@ -1,6 +1,6 @@
-// The input plays the host, the display and the link of a device: packets with right CRCs, some in the right order and some
-// of any content, the clock, boundaries, a link that takes no answers. However it goes, what is shown has the CRC that a
-// frame's end gave, does not change but at a boundary, and nothing is written beside the pages.
+// The input plays the host, the display and the link of a device: packets with right CRCs, some in the right order and
+// some of any content, the clock, boundaries, a link that takes no answers. However it goes, what is shown has the CRC
+// that a frame's end gave, does not change but at a boundary, and nothing is written beside the pages.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -53,12 +53,10 @@ class World {
 public:
     explicit World(std::uint32_t pages) : memory_(pages * kPageBytes + 2 * kGuard, kMark) {
         page_count_ = pages;
-        check(device_.init({.display = &kDisplay,
-                            .link = link(),
-                            .pages = pages_memory(),
-                            .page_count = pages,
-                            .packet = buffer_},
-                           now_ns_) == Status::Ok);
+        check(
+            device_.init(
+                {.display = &kDisplay, .link = link(), .pages = pages_memory(), .page_count = pages, .packet = buffer_},
+                now_ns_) == Status::Ok);
     }
 
     void step(Input& input) {
@@ -112,9 +110,7 @@ public:
                 send(FrameEnd{.frame = frame_, .page_crc = promised_.back()});
                 break;
             }
-            case 7:
-                room_ = input.byte() % 4;
-                break;
+            case 7: room_ = input.byte() % 4; break;
             case 8:
                 device_.set_link(link());
                 to_device_.clear();
@@ -138,9 +134,7 @@ public:
     }
 
 private:
-    std::span<std::byte> pages_memory() {
-        return std::span(memory_).subspan(kGuard, page_count_ * kPageBytes);
-    }
+    std::span<std::byte> pages_memory() { return std::span(memory_).subspan(kGuard, page_count_ * kPageBytes); }
 
     template <class Message>
     void send(const Message& message) {
@@ -151,7 +145,8 @@ private:
     }
     void put(const Header& header, std::span<const std::byte> payload) {
         FrameEnd end;
-        if (header.type == PacketType::FrameEnd && decode(payload, end) == Status::Ok) promised_.push_back(end.page_crc);
+        if (header.type == PacketType::FrameEnd && decode(payload, end) == Status::Ok)
+            promised_.push_back(end.page_crc);
         std::size_t size = 0;
         check(encode_packet(header, payload, packet_, size) == Status::Ok);
         to_device_.emplace_back(packet_.begin(), packet_.begin() + static_cast<std::ptrdiff_t>(size));
@@ -163,8 +158,12 @@ private:
 
     Link link() {
         static constexpr LinkOperations kOperations{
-            .info = [](const void*) { return LinkInfo{"fuzz", kMaxPacketBytes, true}; },
-            .send = [](void* self, std::span<const std::byte> packet) { return static_cast<World*>(self)->hear(packet); },
+            .info =
+                [](const void*) {
+                    return LinkInfo{"fuzz", kMaxPacketBytes, true};
+                },
+            .send = [](void* self,
+                       std::span<const std::byte> packet) { return static_cast<World*>(self)->hear(packet); },
             .receive =
                 [](void* self, std::span<std::byte> buffer, std::size_t& size) {
                     auto& queue = static_cast<World*>(self)->to_device_;

@@ -35,7 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size < kPacketOverhead) return 0;
 
     const std::span<const std::byte> body = input.subspan(kHeaderBytes, size - kPacketOverhead);
-    const Header sent{.type = static_cast<PacketType>(data[3]), .flags = data[4], .session = data[6], .sequence = data[8]};
+    const Header sent{
+        .type = static_cast<PacketType>(data[3]), .flags = data[4], .session = data[6], .sequence = data[8]};
     std::vector<std::byte> packet(size);
     std::size_t encoded = 0;
     check(encode_packet(sent, body, packet, encoded) == Status::Ok && encoded == size);

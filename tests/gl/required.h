@@ -14,9 +14,9 @@ inline bool gl_is_required() {
 }  // namespace xorvox::test
 
 /// Skips the test where `expected` has no OpenGL, or fails it if there must be one.
-#define XORVOX_NEED_GL(expected)                                               \
-    do {                                                                       \
-        if ((expected).has_value()) break;                                     \
-        if (xorvox::test::gl_is_required()) FAIL((expected).error().message);  \
-        XORVOX_SKIP((expected).error().message);                               \
+#define XORVOX_NEED_GL(expected)                                              \
+    do {                                                                      \
+        if ((expected).has_value()) break;                                    \
+        if (xorvox::test::gl_is_required()) FAIL((expected).error().message); \
+        XORVOX_SKIP((expected).error().message);                              \
     } while (false)

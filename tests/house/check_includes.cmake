@@ -1,4 +1,5 @@
 # Who may include whom. cmake -DROOT=… -P check_includes.cmake fails with every include that the table forbids.
+cmake_policy(VERSION 3.25)
 
 # The module of a file, by its path from the root; the first pattern that matches.
 function(module_of path out)

@@ -107,7 +107,6 @@ void Rig::look() {
 
 bool Rig::show(const std::vector<std::byte>& frame) {
     sent_.push_back(frame);
-    const std::uint64_t presented = session_.statistics().frames_presented;
     bool submitted = false;
     std::uint32_t looked_at = 0;
     while (session_.state() != host::SessionState::Failed) {
@@ -118,8 +117,7 @@ bool Rig::show(const std::vector<std::byte>& frame) {
             look();
         }
         if (!submitted) submitted = session_.submit(frame) == Status::Ok;
-        if (submitted && session_.idle() && session_.statistics().frames_presented > presented &&
-            simulator_.device().shown().frame == session_.last_accepted()) {
+        if (submitted && session_.idle() && simulator_.device().shown().frame == session_.last_accepted()) {
             return true;
         }
         if (host_moved != Status::WouldBlock || device_moved != Status::WouldBlock) continue;

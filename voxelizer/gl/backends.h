@@ -15,7 +15,9 @@ Expected<std::unique_ptr<Context>> make_osmesa_context();
 
 /// Opens a library so that its names stay its own (EGL's and OSMesa's OpenGL do not mix), and for good: Mesa does not
 /// survive being unloaded. Null if it is not there; dlerror() says why.
-inline void* open_library(const char* name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE); }
+inline void* open_library(const char* name) {
+    return dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+}
 
 /// Sets `function` to the library's function `name`; false if it has none.
 template <class Function>

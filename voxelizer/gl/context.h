@@ -32,8 +32,8 @@ constexpr std::string_view to_string(ContextKind kind) {
 }
 
 /// One context. It is current only while a Current of it lives, and on that thread alone. EGL and OSMesa share one
-/// dispatch table in Mesa: with two of them current at once, every call silently does nothing. So a thread never holds two
-/// Currents at a time, and drops the one before it makes or destroys a context.
+/// dispatch table in Mesa: with two of them current at once, every call silently does nothing. So a thread never holds
+/// two Currents at a time, and drops the one before it makes or destroys a context.
 class Context {
 public:
     virtual ~Context() = default;
@@ -57,7 +57,7 @@ public:
         bool ok_;
     };
 
-    ContextKind kind() const { return kind_; }  ///< Never Auto.
+    ContextKind kind() const { return kind_; }                 ///< Never Auto.
     const std::string& renderer() const { return renderer_; }  ///< GL_RENDERER: "llvmpipe (LLVM 15.0.6, 256 bits)".
 
 protected:

@@ -101,13 +101,9 @@ Expected<std::unique_ptr<Context>> make_on(ContextKind kind, const Egl& egl, EGL
         if (!has_word(extensions, needed)) return fail(std::string("no ") + needed);
     }
     if (!egl.bind_api(EGL_OPENGL_API)) return fail("no OpenGL (" + error_name(egl) + ")");
-    constexpr std::array<EGLint, 7> attributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                                  4,
-                                                  EGL_CONTEXT_MINOR_VERSION,
-                                                  5,
-                                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                  EGL_NONE};
+    constexpr std::array<EGLint, 7> attributes = {
+        EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     const EGLContext created = egl.create_context(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
     if (created == EGL_NO_CONTEXT) return fail("no OpenGL 4.5 core (" + error_name(egl) + ")");
     auto context = std::make_unique<EglContext>(kind, egl, display, created);

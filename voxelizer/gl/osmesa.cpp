@@ -1,4 +1,5 @@
-// OSMesa, from its library's documented binary interface: distributions that have no OSMesa any more have no header either.
+// OSMesa, from its library's documented binary interface: distributions that have no OSMesa any more have no header
+// either.
 #include <array>
 #include <cstddef>
 
@@ -7,7 +8,8 @@
 namespace xorvox::gl {
 namespace {
 
-constexpr std::array<const char*, 4> kLibraries = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so.9", "libOSMesa.so"};
+constexpr std::array<const char*, 4> kLibraries = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so.9",
+                                                   "libOSMesa.so"};
 
 constexpr int kFormat = 0x22;
 constexpr int kRgba = 0x1908;
@@ -32,9 +34,7 @@ public:
     Expected<void> load_functions() { return load(osmesa_.get_address); }
 
 private:
-    bool bind() override {
-        return osmesa_.make_current(context_, buffer_.data(), GL_UNSIGNED_BYTE, kSide, kSide) != 0;
-    }
+    bool bind() override { return osmesa_.make_current(context_, buffer_.data(), GL_UNSIGNED_BYTE, kSide, kSide) != 0; }
     void unbind() override { osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
     static constexpr int kSide = 4;  ///< Of the picture that OSMesa insists on; drawing goes to framebuffer objects.
@@ -60,8 +60,8 @@ Expected<std::unique_ptr<Context>> make_osmesa_context() {
         !find_function(library, "OSMesaGetProcAddress", osmesa.get_address)) {
         return fail("libOSMesa is older than version 11.2");
     }
-    constexpr std::array<int, 9> attributes = {kFormat,       kRgba, kProfile,      kCoreProfile,
-                                               kMajorVersion, 4,     kMinorVersion, 5, 0};
+    constexpr std::array<int, 9> attributes = {kFormat,       kRgba, kProfile, kCoreProfile, kMajorVersion, 4,
+                                               kMinorVersion, 5,     0};
     void* created = osmesa.create(attributes.data(), nullptr);
     if (created == nullptr) return fail("libOSMesa has no OpenGL 4.5 core");
     auto context = std::make_unique<OsmesaContext>(osmesa, created);

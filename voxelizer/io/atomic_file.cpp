@@ -20,21 +20,17 @@ tl::unexpected<Error> system_failure(std::string_view path, std::string_view wha
 
 // Where the bytes go: `path`, or what it links to.
 Expected<std::string> resolve(const std::string& path) {
-    std::error_code error;
-    const auto link = std::filesystem::symlink_status(path, error);
-    std::string target = path;
-    if (link.type() == std::filesystem::file_type::symlink) {
-        target = std::filesystem::canonical(path, error).string();
-        if (error) return fail(fmt::format("{}: is a link to nothing; remove it or choose another name", path));
-    }
-    const auto type = std::filesystem::status(target, error).type();
-    if (type == std::filesystem::file_type::directory) {
-        return fail(fmt::format("{}: is a directory; name a file in it", path));
-    }
-    if (type != std::filesystem::file_type::regular && type != std::filesystem::file_type::not_found &&
-        type != std::filesystem::file_type::none) {
+    using std::filesystem::file_type;
+    std::error_code ignored;
+    const file_type type = std::filesystem::status(path, ignored).type();
+    if (type == file_type::directory) return fail(fmt::format("{}: is a directory; name a file in it", path));
+    if (type != file_type::regular && type != file_type::not_found && type != file_type::none) {
         return fail(fmt::format("{}: is a device or a pipe, which cannot be replaced as a whole; name a file", path));
     }
+    if (std::filesystem::symlink_status(path, ignored).type() != file_type::symlink) return path;
+    std::error_code error;
+    std::string target = std::filesystem::canonical(path, error).string();
+    if (error) return fail(fmt::format("{}: is a link to nothing; remove it or choose another name", path));
     return target;
 }
 

@@ -86,7 +86,8 @@ public:
           next_(header.data_offset),
           order_(header.encoding == PlyEncoding::BinaryBigEndian ? std::endian::big : std::endian::little) {}
 
-    bool has_room_for(const PlyElement& element) const {
+    bool has_room_for(const PlyElement& element) {
+        place_ = next_;
         std::size_t least = 0;
         for (const PlyProperty& property : element.properties) {
             least += property.is_list ? size_of(property.count_type) + least_items(property) * size_of(property.type)
@@ -179,9 +180,10 @@ private:
         if (element.properties.empty()) return true;
         if (!values_.has_room_for(element)) {
             error_ = fmt::format(
-                "{}: {} entries of element {} announced, but the file is too short for them; it was cut short or its "
+                "{}: {}: {} entries of element {} announced, but the file is too short for them; it was cut short or "
+                "its "
                 "header is wrong",
-                source_, element.count, quoted(element.name));
+                source_, values_.where(), element.count, quoted(element.name));
             return false;
         }
         if (element.name == "vertex") builder_.reserve_vertices(static_cast<std::size_t>(element.count));
@@ -224,7 +226,7 @@ private:
         for (; corners > 0; --corners) {
             std::int64_t vertex = 0;
             if (!values_.integer(property.type, vertex)) return false;
-            if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= header_.vertex_count) {
+            if (static_cast<std::uint64_t>(vertex) >= header_.vertex_count) {  // Negative ones become huge.
                 return wrong(fmt::format("vertex {} of a file with {}", vertex, header_.vertex_count));
             }
             builder_.add_corner(static_cast<std::uint32_t>(vertex));

@@ -55,8 +55,6 @@ public:
 private:
     bool parse_lines() {
         if (!next_line()) return false;
-        if (keyword_ != "ply")
-            return failed(fmt::format("expected 'ply', found {}; this is no PLY file", quoted(keyword_)));
         if (!end_of_line()) return false;
         if (!next_line()) return false;
         while (keyword_ == "comment" || keyword_ == "obj_info") {
@@ -212,6 +210,10 @@ bool begins_like_ply(std::string_view bytes) {
 }
 
 Expected<PlyHeader> parse_ply_header(std::string_view bytes, std::string_view source) {
+    if (!begins_like_ply(bytes)) {
+        return fail(fmt::format("{}: line 1: expected 'ply', found {}; this is no PLY file", source,
+                                quoted(bytes.substr(0, 8))));
+    }
     return HeaderParser(bytes, source).parse();
 }
 

@@ -17,7 +17,9 @@ Bytes lz4(std::span<const std::byte> bytes) {
     return block;
 }
 
-FrameBegin begin_of(std::uint32_t id) { return {.frame = id, .frame_bytes = 64}; }
+FrameBegin begin_of(std::uint32_t id) {
+    return {.frame = id, .frame_bytes = 64};
+}
 
 Chunk raw_chunk(std::uint32_t id, std::span<const std::byte> frame, std::size_t offset, std::size_t length) {
     return {.frame = id,
@@ -149,6 +151,22 @@ TEST_CASE("losing any packet of a frame drops it whole, says so once, and the ne
         desk.present();
         CHECK(desk.shown() == frame_of(3));
         CHECK(desk.device.status(desk.now_ns).frames_dropped == 1);
+    }
+}
+
+TEST_CASE("a chunk or an end of another frame ends the one in reception, and both are told") {
+    for (const std::size_t first_heard : {std::size_t{1}, std::size_t{5}}) {
+        Desk desk;
+        desk.hello();
+        const std::vector<Bytes> cut = desk.frame_packets(1, frame_of(1));
+        desk.put(cut[0]);
+        desk.put(cut[1]);
+        const std::vector<Bytes> beheaded = desk.frame_packets(2, frame_of(2));
+        REQUIRE(beheaded.size() == 6);
+        for (std::size_t i = first_heard; i < beheaded.size(); ++i) desk.put(beheaded[i]);
+        CHECK(desk.refusal(1) == NackReason::Gap);
+        CHECK(desk.refusal(2) == NackReason::Gap);
+        CHECK(desk.silent());
     }
 }
 
@@ -333,7 +351,7 @@ TEST_CASE("a frame that comes after its time is shown like one that asks for non
     Desk desk(3);
     desk.hello();
     desk.now_ns = 50'000'000;
-    desk.accept(1, frame_of(1));
+    desk.accept(1, frame_of(1), 40'000'000);
     desk.now_ns = 51'000'000;
     desk.accept(2, frame_of(2), 10'000'000);
     CHECK(desk.present().frame == 2);

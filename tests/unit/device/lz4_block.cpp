@@ -92,6 +92,8 @@ TEST_CASE("lz4: offsets of zero or before the start, endless lengths and empty b
     CHECK(decode(bytes({0x10, 'a', 2, 0, 0x00}), 5, out) == Status::Corrupt);
     CHECK(decode(bytes({0x00, 1, 0, 0x00}), 4, out) == Status::Corrupt);
     CHECK(decode(Bytes(5000, std::byte{0xff}), 100, out) == Status::Corrupt);
+    CHECK(decode(bytes({0x50, 1, 2, 3, 4}), 5, out) == Status::Corrupt);
+    CHECK(out == Bytes(5, std::byte{0xEE}));
 }
 
 TEST_CASE("lz4: what liblz4 takes of damaged blocks we take alike, and nothing is written outside") {

@@ -29,8 +29,8 @@ inline bool has_zero_offset(std::span<const std::byte> block) {
     return false;
 }
 
-/// False when the two decoders disagree: liblz4 takes `block` as exactly `length` bytes and ours does not, or gives other
-/// bytes; or ours writes outside.
+/// False when the two decoders disagree: liblz4 takes `block` as exactly `length` bytes and ours does not, or gives
+/// other bytes; or ours writes outside.
 inline bool agrees_with_liblz4(std::span<const std::byte> block, std::size_t length) {
     constexpr std::size_t kGuard = 32;
     constexpr std::byte kMark{0xA5};

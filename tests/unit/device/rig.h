@@ -115,7 +115,8 @@ struct Desk {
 
     /// Lets the device work until it has nothing to do.
     void work() {
-        while (device.poll(now_ns) == Status::Ok) {}
+        while (device.poll(now_ns) == Status::Ok) {
+        }
     }
 
     template <class Message>
@@ -150,20 +151,18 @@ struct Desk {
 
     /// The packets of a frame, in raw chunks of `chunk` bytes. With a base, of its difference to `base_frame`.
     std::vector<Bytes> frame_packets(std::uint32_t id, const Bytes& frame, std::uint64_t present_at_ns = 0,
-                                     std::size_t chunk = 24) {
-        return packets({.frame = id,
-                        .frame_bytes = static_cast<std::uint32_t>(frame.size()),
-                        .present_at_ns = present_at_ns},
-                       frame, crc32c(frame), chunk);
+                                     std::size_t chunk = 21) {
+        return packets(
+            {.frame = id, .frame_bytes = static_cast<std::uint32_t>(frame.size()), .present_at_ns = present_at_ns},
+            frame, crc32c(frame), chunk);
     }
-    std::vector<Bytes> delta_packets(std::uint32_t id, const Bytes& frame, std::uint32_t base, const Bytes& base_frame) {
+    std::vector<Bytes> delta_packets(std::uint32_t id, const Bytes& frame, std::uint32_t base,
+                                     const Bytes& base_frame) {
         Bytes difference = frame;
         for (std::size_t i = 0; i < frame.size(); ++i) difference[i] ^= base_frame[i];
-        return packets({.frame = id,
-                        .flags = kFrameDelta,
-                        .base = base,
-                        .frame_bytes = static_cast<std::uint32_t>(frame.size())},
-                       difference, crc32c(frame), 24);
+        return packets(
+            {.frame = id, .flags = kFrameDelta, .base = base, .frame_bytes = static_cast<std::uint32_t>(frame.size())},
+            difference, crc32c(frame), 21);
     }
     void send_frame(std::uint32_t id, const Bytes& frame, std::uint64_t present_at_ns = 0) {
         for (Bytes& packet : frame_packets(id, frame, present_at_ns)) put(std::move(packet));

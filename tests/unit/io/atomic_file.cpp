@@ -84,7 +84,9 @@ TEST_CASE("an atomic file is refused where none can be") {
     CHECK_THAT(refusal(folder / std::string(300, 'x')), contains("File name too long"));
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
     CHECK_THAT(refusal(folder / "pipe"), contains("is a device or a pipe"));
-    CHECK(folder.names() == Names{"file", "pipe"});
+    std::filesystem::create_symlink("pipe", folder / "link");
+    CHECK_THAT(refusal(folder / "link"), contains("is a device or a pipe"));
+    CHECK(folder.names() == Names{"file", "link", "pipe"});
     struct stat info {};
     REQUIRE(::stat("/dev/null", &info) == 0);
     CHECK(S_ISCHR(info.st_mode));

@@ -133,7 +133,8 @@ TEST_CASE("decode of a hello rejects what no device can be") {
 
 TEST_CASE("numbers of enumerations that are not known yet are let through") {
     Control control;
-    REQUIRE(decode(encoded(Control{.operation = static_cast<ControlOperation>(200), .value = 1}), control) == Status::Ok);
+    REQUIRE(decode(encoded(Control{.operation = static_cast<ControlOperation>(200), .value = 1}), control) ==
+            Status::Ok);
     CHECK(static_cast<int>(control.operation) == 200);
     Nack nack;
     REQUIRE(decode(encoded(Nack{.reason = static_cast<NackReason>(99)}), nack) == Status::Ok);

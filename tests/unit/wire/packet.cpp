@@ -11,7 +11,9 @@ using namespace xorvox::wire;
 
 namespace {
 
-std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+std::span<const std::byte> bytes_of(std::string_view text) {
+    return std::as_bytes(std::span(text));
+}
 
 std::uint32_t slow_crc32c(std::span<const std::byte> bytes) {
     std::uint32_t crc = 0xffffffffu;
