@@ -148,6 +148,12 @@ Command displays_command(CLI::App& program, DisplaysOptions& options) {
     return {&app, [&options] { return displays(options); }};
 }
 
+std::vector<std::string> command_names(const std::vector<Command>& commands) {
+    std::vector<std::string> names;
+    for (const Command& command : commands) names.push_back(command.app->get_name());
+    return names;
+}
+
 /// CLI11's messages may run over several lines; ours never do.
 std::string one_line(std::string text) {
     for (char& c : text) {
@@ -175,6 +181,11 @@ int main_program(int argc, char** argv) {
                                         show_command(program, show_options), sim_command(program, sim_options),
                                         displays_command(program, displays_options)};
 
+    if (argc > 1 && argv[1][0] != '-' && program.get_subcommand_no_throw(argv[1]) == nullptr) {
+        fmt::print(stderr, "xorvox: there is no command '{}'; there are {}; see xorvox --help\n", argv[1],
+                   fmt::join(command_names(commands), ", "));
+        return kFailure;
+    }
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -37,8 +37,10 @@ std::uint64_t clock_ns() {
                                       std::chrono::nanoseconds(1));
 }
 
-host::SessionOptions session_options() {
+/// A display may remember the last session, so each gets another id; a file is the same every time.
+host::SessionOptions session_options(bool two_way) {
     host::SessionOptions options;
+    if (!two_way) return options;
     options.session = static_cast<std::uint16_t>(std::random_device()() % 0xffff + 1);
     return options;
 }
@@ -99,7 +101,7 @@ Expected<Delivery> send_over(Link link, const ShowOptions& options, const Displa
                    display.name.view());
     }
     const Progress progress("sending to " + options.to);
-    host::Session session(link, display, session_options());
+    host::Session session(link, display, session_options(link.info().two_way));
     bool submitted = false;
     const auto done = [&] {
         return submitted && session.idle() && (!link.info().two_way || session.statistics().frames_presented > 0);
@@ -110,7 +112,7 @@ Expected<Delivery> send_over(Link link, const ShowOptions& options, const Displa
         if (!submitted) submitted = session.submit(frame) == Status::Ok;
         if (moved != Status::WouldBlock) continue;
         // Whatever it says, the session's own time-outs are looked at next.
-        (void)link.wait(kLinkReadable, 20'000'000);
+        (void)link.wait(session.events(), 20'000'000);
     }
     return Delivery{session.statistics(), std::nullopt, 0.0};
 }

@@ -48,13 +48,14 @@ public:
         json_ ? fmt::print("{{\"event\": \"{}\"}}\n", what) : fmt::print("client {}\n", what);
         std::fflush(stdout);
     }
-    /// Says what is shown when it is another frame than at the last call, or dark when it was not.
+    /// Says what is shown when that has changed since the last call.
     void shown(const sim::Simulator& simulator, std::uint64_t now_ns) {
         const wire::DeviceStatus status = simulator.device().status(now_ns);
-        const std::uint64_t key =
-            status.has_frame == 0 ? 0 : std::uint64_t{status.shown_frame} << 2 | (status.blank != 0 ? 3u : 1u);
-        if (key == last_) return;
-        last_ = key;
+        const device::Shown shown = simulator.device().shown();
+        // A new frame never comes into the page of the one before.
+        if (shown.page.data() == last_page_ && shown.brightness == last_brightness_) return;
+        last_page_ = shown.page.data();
+        last_brightness_ = shown.brightness;
         const sim::LightField light = simulator.light();
         if (json_) {
             std::string object = sim::to_json(sim::measure(display_, light, status));
@@ -71,7 +72,8 @@ public:
 private:
     const DisplayDescription& display_;
     bool json_;
-    std::uint64_t last_ = 0;  ///< Frame and blanking, or 0 before the first frame.
+    const std::byte* last_page_ = nullptr;  ///< Null while dark.
+    std::uint8_t last_brightness_ = 255;
 };
 
 std::int64_t until_ns(std::uint64_t deadline_ns, std::uint64_t now_ns) {

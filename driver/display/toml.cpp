@@ -285,7 +285,7 @@ private:
 
     bool at(const toml::node& node, std::string_view message) {
         const std::string panel = panel_ ? fmt::format("panel {}: ", *panel_ + 1) : "";
-        error_.message = fmt::format("{}:{}: {}{}", source_, node.source().begin.line, panel, message);
+        error_.message = fmt::format("{}: line {}: {}{}", source_, node.source().begin.line, panel, message);
         return false;
     }
 
@@ -324,11 +324,11 @@ Expected<std::string> read_file(const std::string& path) {
 
 Expected<DisplayDescription> parse_display(std::string_view toml, std::string_view source) {
     if (const auto stray = display::find_stray(toml)) {
-        return fail(fmt::format("{}:{}: not valid here: {}", source, stray->line, stray->message));
+        return fail(fmt::format("{}: line {}: not valid here: {}", source, stray->line, stray->message));
     }
     const toml::parse_result result = toml::parse(toml, source);
     if (!result) {
-        return fail(fmt::format("{}:{}: not valid TOML: {}", source, result.error().source().begin.line,
+        return fail(fmt::format("{}: line {}: not valid TOML: {}", source, result.error().source().begin.line,
                                 one_line(result.error().description())));
     }
     return Reader(source).read(result.table());

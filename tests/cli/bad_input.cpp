@@ -32,11 +32,11 @@ TEST_CASE("missing, unreadable and wrong mesh files are refused by name", "[cli]
     refused({"voxelize", folder.file("mesh.xyz", "1 2 3\n"), "-o", out}, {"mesh.xyz", "ply", "stl", "obj"});
     refused({"voxelize", folder.file("empty.obj", ""), "-o", out}, {"empty.obj"});
     refused({"voxelize", folder.file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "-o", out},
-            {"nan.obj:1", "nan"});
+            {"nan.obj: line 1", "nan"});
     refused({"voxelize", folder.file("inf.obj", "v 1e999 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "-o", out},
-            {"inf.obj:1", "1e999"});
+            {"inf.obj: line 1", "1e999"});
     refused({"voxelize", folder.file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "-o", out},
-            {"index.obj:4", "9"});
+            {"index.obj: line 4", "9"});
     refused({"info", folder.path("none.stl"), "--json"}, {"none.stl"});
     refused({"show", folder.path("none.obj"), "--display", "cube16-ws2812"}, {"none.obj"});
     CHECK(folder.names() == std::vector<std::string>{"empty.obj", "index.obj", "inf.obj", "mesh.xyz", "nan.obj"});
@@ -130,10 +130,10 @@ TEST_CASE("unknown words on the command line are refused and point to the help",
 TEST_CASE("mistakes in a display file are explained by line", "[cli]") {
     const Folder folder;
     const std::string mesh = folder.file("cube.obj", cube_obj(1.0));
-    refused({"show", mesh, "--display", folder.file("syntax.toml", "name = \"x\"\nkind = \n")}, {"syntax.toml:2"});
+    refused({"show", mesh, "--display", folder.file("syntax.toml", "name = \"x\"\nkind = \n")}, {"syntax.toml: line 2"});
     refused(
         {"show", mesh, "--display", folder.file("key.toml", "name = \"x\"\nkind = \"stacked-planes\"\nslicez = 3\n")},
-        {"key.toml:3", "slicez", "slices"});
+        {"key.toml: line 3", "slicez", "slices"});
     refused({"show", mesh, "--display", folder.path("none.toml")}, {"none.toml"});
 }
 

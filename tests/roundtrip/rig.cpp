@@ -121,9 +121,12 @@ bool Rig::show(const std::vector<std::byte>& frame) {
             return true;
         }
         if (host_moved != Status::WouldBlock || device_moved != Status::WouldBlock) continue;
-        // Bytes may still be on their way through the kernel; time goes on only when nothing comes.
-        if (in_kernel_ && host_end_->wait(kLinkReadable, 1'000'000) == Status::Ok) continue;
-        now_ns_ = simulator_.next_boundary_ns();
+        if (in_kernel_) {
+            // Bytes may still be on their way; time goes on, in longer steps, only when nothing comes.
+            if (host_end_->wait(session_.events(), 200'000) == Status::Ok) continue;
+            now_ns_ += 100'000'000;
+        }
+        now_ns_ = std::max(now_ns_, simulator_.next_boundary_ns());
     }
     return false;
 }

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,7 +43,6 @@ public:
 
     bool whole() const { return whole_; }
     sim::LightField light() const { return simulator_.light(); }
-    std::span<const std::byte> page() const { return simulator_.device().shown().page; }
     const host::Session& session() const { return session_; }
     transport::FaultCounts faults() const { return transport::fault_counts(host_end_.get()); }
 
