@@ -1,4 +1,5 @@
 // The command line. The only file that includes CLI11, which is slow to compile.
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <exception>
@@ -181,9 +182,10 @@ int main_program(int argc, char** argv) {
                                         show_command(program, show_options), sim_command(program, sim_options),
                                         displays_command(program, displays_options)};
 
-    if (argc > 1 && argv[1][0] != '-' && program.get_subcommand_no_throw(argv[1]) == nullptr) {
+    const std::vector<std::string> names = command_names(commands);
+    if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
         fmt::print(stderr, "xorvox: there is no command '{}'; there are {}; see xorvox --help\n", argv[1],
-                   fmt::join(command_names(commands), ", "));
+                   fmt::join(names, ", "));
         return kFailure;
     }
     try {

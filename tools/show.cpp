@@ -96,18 +96,21 @@ Expected<Delivery> show_in_process(const ShowOptions& options, const DisplayDesc
 /// Sends the frame and waits until it is presented, or, where there is no way back, until the link has all of it.
 Expected<Delivery> send_over(Link link, const ShowOptions& options, const DisplayDescription& display,
                              std::span<const std::byte> frame) {
-    if (!link.info().two_way && !options.json) {
+    const bool two_way = link.info().two_way;
+    if (!two_way && !options.json) {
         fmt::print("{} has no way back: keyframes only, and the display is taken to be as {} says\n", options.to,
                    display.name.view());
     }
     const Progress progress("sending to " + options.to);
-    host::Session session(link, display, session_options(link.info().two_way));
+    // Nobody answers a recording: its time is 0, so that equal frames give equal files.
+    const auto now_ns = [two_way] { return two_way ? clock_ns() : 0; };
+    host::Session session(link, display, session_options(two_way));
     bool submitted = false;
     const auto done = [&] {
-        return submitted && session.idle() && (!link.info().two_way || session.statistics().frames_presented > 0);
+        return submitted && session.idle() && (!two_way || session.statistics().frames_presented > 0);
     };
     while (!done()) {
-        const Status moved = session.poll(clock_ns());
+        const Status moved = session.poll(now_ns());
         if (session.state() == host::SessionState::Failed) return tl::unexpected(session.error());
         if (!submitted) submitted = session.submit(frame) == Status::Ok;
         if (moved != Status::WouldBlock) continue;

@@ -264,7 +264,7 @@ TEST_CASE("loading by path reads a file and names it in messages") {
     CHECK(load_display(path)->name.view() == "stack");
 
     std::ofstream(path) << with(kStack, "slices = 12", "slices = 0");
-    CHECK_THAT(load_display(path).error().message, Contains(path + ":4: slices"));
+    CHECK_THAT(load_display(path).error().message, Contains(path + ": line 4: slices"));
 
     std::ofstream(path) << "# " << std::string(1 << 20, 'x');
     CHECK_THAT(load_display(path).error().message, Contains(path) && Contains("longer than 1048576 bytes"));
