@@ -21,5 +21,5 @@ run() {
 }
 run build/release/bin/xorvox info examples/duck.ply
 run build/release/bin/xorvox voxelize examples/duck.ply --size 64 -o build/duck.nrrd
-run build/release/bin/xorvox show examples/duck.ply --display vortex --png build/demo.png
+run build/release/bin/xorvox show examples/duck.ply --display vortex --color gradient:orange,yellow --png build/demo.png
 printf '\nThe picture is %s\n' "$PWD/build/demo.png"
