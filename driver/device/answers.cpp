@@ -22,6 +22,10 @@ bool Device::waiting() const {
            answers_.refusal_count > 0;
 }
 
+std::uint32_t Device::events() const {
+    return kLinkReadable;
+}
+
 bool Device::send_answers(std::uint64_t now_ns) {
     const auto say = [this](bool& asked, const auto& message) {
         if (asked && send(session_, message)) asked = false;

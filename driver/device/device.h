@@ -55,8 +55,12 @@ public:
     /// link).
     Status poll(std::uint64_t now_ns);
 
-    /// The display's cycle begins anew (a turn, a sweep, a refresh): swaps in the newest page that is due. Nothing else
-    /// ever changes what is shown, but blanking.
+    /// What to wait for at the link, as LinkOperations::wait takes it, after poll() answered WouldBlock: kLinkWritable
+    /// while answers wait for room, else kLinkReadable.
+    std::uint32_t events() const;
+
+    /// The display's cycle begins anew (a turn, a sweep, a refresh): of the accepted frames that are due, shows the one
+    /// that was due last, of equals the one accepted last. Nothing else ever changes what is shown, but blanking.
     void boundary(std::uint64_t now_ns);
 
     /// What to scan out until the next boundary; dark while blanked, by command, by policy or by a fault.

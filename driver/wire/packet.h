@@ -47,6 +47,12 @@ struct Header {
     std::uint32_t length = 0;    ///< Bytes of payload.
 };
 
+/// Whether number `a`, of a sequence or a frame, comes after `b`. Numbers wrap: it does if (a − b) mod 2³² is
+/// 1 … 2³¹ − 1. Of two that are 2³¹ apart, neither comes after the other.
+constexpr bool is_newer(std::uint32_t a, std::uint32_t b) {
+    return a - b - 1u < 0x7fffffffu;
+}
+
 /// CRC-32C (Castagnoli, reflected, initial and final value ~0) of `bytes`, continuing from `crc`: crc32c(b, crc32c(a))
 /// is that of a followed by b.
 std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t crc = 0);

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "driver/host/color.h"
 #include "driver/host/pixel.h"
 #include "driver/host/slices.h"
 #include "transport/loopback.h"
@@ -21,7 +20,15 @@ Mesh lopsided(std::uint32_t turn) {
     return mesh;
 }
 
-Picture paint(const DisplayDescription& display, const Mesh& mesh, const std::string& color) {
+glm::vec3 Octants::color(const glm::vec3& point) {
+    return {point.x > 0.4871f ? 1.0f : 0.4f, point.y > 0.5219f ? 0.8f : 0.3f, point.z > 0.4637f ? 0.6f : 0.0f};
+}
+
+void Octants::evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const {
+    std::transform(points.begin(), points.end(), colors.begin(), color);
+}
+
+Picture paint(const DisplayDescription& display, const Mesh& mesh) {
     host::FramePainter painter(display);
     const Lattice lattice = painter.lattice().view();
     const DisplayExtent room = extent(display);
@@ -36,20 +43,19 @@ Picture paint(const DisplayDescription& display, const Mesh& mesh, const std::st
     if (!volume) throw std::runtime_error(volume.error().message);
     picture.volume = std::move(*volume);
 
-    const auto field = host::parse_color(color);
+    const Octants field;
     picture.frame.resize(frame_bytes(display));
-    if (painter.paint(picture.volume.view(), **field, picture.frame) != Status::Ok) throw std::runtime_error("paint");
+    if (painter.paint(picture.volume.view(), field, picture.frame) != Status::Ok) throw std::runtime_error("paint");
 
-    glm::vec3 linear{};
-    const glm::vec3 anywhere{0.5f};
-    (*field)->evaluate({&anywhere, 1}, {&linear, 1});
-    const std::uint32_t code = host::quantize(linear, display.format);
     picture.codes.resize(lattice.sample_count());
     std::size_t sample = 0;
     for (std::uint32_t z = 0; z < lattice.nz; ++z) {
         for (std::uint32_t y = 0; y < lattice.ny; ++y) {
             for (std::uint32_t x = 0; x < lattice.nx; ++x, ++sample) {
-                if (picture.volume.test(x, y, z)) picture.codes[sample] = code;
+                if (!picture.volume.test(x, y, z)) continue;
+                const glm::dvec3 place = sample_position(lattice, x, y, z);
+                const glm::vec3 point((place - room.lower) / (room.upper - room.lower));
+                picture.codes[sample] = host::visible_code(Octants::color(point), display.format);
             }
         }
     }
@@ -98,24 +104,22 @@ Rig::Rig(const DisplayDescription& display, std::pair<UniqueLink, UniqueLink> en
       session_(host_end_.get(), display, patient()) {}
 
 void Rig::look() {
-    const std::span<const std::byte> page = simulator_.device().shown().page;
-    if (page.empty()) return;
-    const bool known =
-        std::any_of(sent_.begin(), sent_.end(), [&](const auto& frame) { return std::ranges::equal(frame, page); });
+    const device::Shown shown = simulator_.device().shown();
+    // A small page is compared after every step, a large one when it comes.
+    if (shown.page.empty() || (shown.frame == looked_at_ && shown.page.size() > 100'000)) return;
+    looked_at_ = shown.frame;
+    const bool known = std::any_of(sent_.begin(), sent_.end(),
+                                   [&](const auto& frame) { return std::ranges::equal(frame, shown.page); });
     whole_ = whole_ && known;
 }
 
 bool Rig::show(const std::vector<std::byte>& frame) {
     sent_.push_back(frame);
     bool submitted = false;
-    std::uint32_t looked_at = 0;
     while (session_.state() != host::SessionState::Failed) {
         const Status host_moved = session_.poll(now_ns_);
         const Status device_moved = simulator_.poll(now_ns_);
-        if (const std::uint32_t frame_id = simulator_.device().shown().frame; frame_id != looked_at) {
-            looked_at = frame_id;
-            look();
-        }
+        look();
         if (!submitted) submitted = session_.submit(frame) == Status::Ok;
         if (submitted && session_.idle() && simulator_.device().shown().frame == session_.last_accepted()) {
             return true;

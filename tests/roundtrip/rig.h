@@ -3,11 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "driver/display/description.h"
+#include "driver/host/color.h"
 #include "driver/host/session.h"
 #include "sim/rebuild.h"
 #include "sim/simulator.h"
@@ -21,13 +22,20 @@ namespace xorvox::test {
 /// A tetrahedron without any symmetry, within ±1; `turn` picks one of several different ones.
 Mesh lopsided(std::uint32_t turn);
 
-/// Voxels of one mesh on one display, and the frame that the host makes of them in one colour.
+/// Eight different colours, one an octant of the lattice's box; the borders run where no sample is near.
+class Octants final : public host::ColorField {
+public:
+    static glm::vec3 color(const glm::vec3& point);
+    void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override;
+};
+
+/// Voxels of one mesh on one display, and the frame that the host makes of them, in the colours of Octants.
 struct Picture {
     BitVolume volume;
     std::vector<std::byte> frame;
     std::vector<std::uint32_t> codes;  ///< One a sample of the display's lattice: the colour's code, or 0.
 };
-Picture paint(const DisplayDescription& display, const Mesh& mesh, const std::string& color);
+Picture paint(const DisplayDescription& display, const Mesh& mesh);
 
 /// A host and a simulated display at the two ends of one link.
 class Rig {
@@ -58,6 +66,7 @@ private:
     host::Session session_;
     std::vector<std::vector<std::byte>> sent_;
     std::uint64_t now_ns_ = 0;
+    std::uint32_t looked_at_ = 0;  ///< Id of the frame that was looked at last.
     bool whole_ = true;
 };
 

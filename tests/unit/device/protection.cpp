@@ -58,6 +58,32 @@ TEST_CASE("the display goes dark with the host and its link gone, and the next h
     CHECK(desk.shown() == frame_of(1));
 }
 
+TEST_CASE("a host that left before its first frame is missed too") {
+    Desk desk;
+    desk.hello();
+    desk.device.set_link({});
+    desk.now_ns += 2000 * kMs;
+    CHECK(desk.device.poll(desk.now_ns) == Status::Closed);
+    desk.device.set_link(desk.link.link());
+    CHECK(desk.hello().fault == Fault::SilentHost);
+}
+
+TEST_CASE("a host that sends and never reads is not heard: the display goes dark and says so once it reads") {
+    Lit desk;
+    desk.link.room = 0;
+    for (int i = 0; i < 20; ++i) {
+        desk.now_ns += 100 * kMs;
+        desk.send(Ping{});
+        desk.work();
+    }
+    CHECK_FALSE(desk.dark());
+    desk.now_ns += 100 * kMs;
+    desk.work();
+    CHECK(desk.dark());
+    desk.link.room = 1;
+    CHECK(desk.answer<DeviceStatus>().fault == Fault::SilentHost);
+}
+
 TEST_CASE("any valid packet of the session feeds the watchdog; bad, foreign and repeated ones do not") {
     Lit desk;
     const Bytes ping = desk.next_packet(Ping{});

@@ -237,6 +237,20 @@ TEST_CASE("answers that the link does not take now are sent later, and nothing i
     CHECK(desk.silent());
 }
 
+TEST_CASE("a device waits for room while it has answers to send, and for packets otherwise") {
+    Desk desk;
+    CHECK(desk.device.events() == kLinkReadable);
+    desk.hello();
+    CHECK(desk.device.events() == kLinkReadable);
+    desk.link.room = 0;
+    desk.send(Ping{});
+    desk.work();
+    CHECK(desk.device.events() == kLinkWritable);
+    desk.link.room = 1;
+    desk.answer<Pong>();
+    CHECK(desk.device.events() == kLinkReadable);
+}
+
 TEST_CASE("a frame cut short by a refused one gets both answers, in order, one at a time") {
     Desk desk;
     desk.hello();

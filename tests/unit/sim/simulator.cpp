@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "driver/display/toml.h"
 #include "driver/wire/messages.h"
 #include "tests/catch.h"
 #include "tests/unit/sim/displays.h"
@@ -129,6 +130,41 @@ TEST_CASE("a misbuilt simulator shows the same frame elsewhere") {
     (void)mirrored->poll(kCycle_ns);
     REQUIRE(mirrored->light().flashes.size() == 1);
     CHECK(mirrored->light().flashes[0].place_mm.x == 4.0);
+}
+
+TEST_CASE("a simulator whose client does not read waits for room and not for packets") {
+    Bench bench;
+    Link link = bench.ends.second.get();
+    bench.send(wire::HelloRequest{});
+    std::vector<std::byte> packet(wire::kMinPacketBytes);
+    std::size_t size = 0;
+    for (Status sent = Status::Ok; sent == Status::Ok;) {
+        REQUIRE(wire::encode_packet(3, bench.sequence++, wire::Ping{}, packet, size) == Status::Ok);
+        sent = bench.ends.first->send(std::span(packet).first(size));
+        while (bench.simulator.poll(1) == Status::Ok) {
+        }
+    }
+    CHECK(link.wait(kLinkReadable, 0) == Status::Ok);  // What the client sends waits as well.
+    CHECK(link.wait(bench.simulator.device().events(), 0) == Status::Timeout);
+
+    std::vector<std::byte> answer(wire::kMaxPacketBytes);
+    while (bench.ends.first->receive(answer, size) == Status::Ok) {
+    }
+    CHECK(link.wait(bench.simulator.device().events(), 0) == Status::Ok);
+    CHECK(bench.simulator.poll(1) == Status::Ok);
+}
+
+TEST_CASE("a display that cannot be is refused in the words of its rules") {
+    std::vector<DisplayDescription> displays(4, rotor_of(4, 4, 8));
+    displays[0].cycles_per_second = 0.0;
+    displays[1].cycles_per_second = -1.0;
+    displays[2].panel_count = 1000;
+    displays[3].slices = 0;
+    for (const DisplayDescription& display : displays) {
+        const auto made = sim::Simulator::make(display, Link{});
+        REQUIRE_FALSE(made.has_value());
+        CHECK(made.error().message == validate_display(display).error().message);
+    }
 }
 
 TEST_CASE("sizes that no device has are refused in words") {

@@ -1,5 +1,6 @@
 #include "transport/file.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +18,7 @@ namespace xorvox::transport {
 namespace {
 
 namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
 
 /// A folder of the test's own, gone at its end.
 struct Folder {
@@ -26,7 +28,15 @@ struct Folder {
     Folder& operator=(const Folder&) = delete;
     ~Folder() { fs::remove_all(path); }
     std::string file(const char* name) const { return (path / name).string(); }
-    bool empty() const { return fs::is_empty(path); }
+    /// Everything in it, sorted.
+    Names names() const {
+        Names names;
+        for (const auto& entry : fs::recursive_directory_iterator(path)) {
+            names.push_back(fs::relative(entry.path(), path).string());
+        }
+        std::sort(names.begin(), names.end());
+        return names;
+    }
 };
 
 std::string read_all(const std::string& path) {
@@ -74,7 +84,7 @@ TEST_CASE("a recording that is not committed leaves nothing behind") {
         REQUIRE((*writer)->flush() == Status::Ok);
         CHECK_FALSE(fs::exists(folder.file("a.xvr")));
     }
-    CHECK(folder.empty());
+    CHECK(folder.names() == Names{});
 }
 
 TEST_CASE("an existing recording is replaced only by a whole one") {
@@ -85,7 +95,54 @@ TEST_CASE("an existing recording is replaced only by a whole one") {
     CHECK(read_all(path) == "old");
     record(path, {3});
     CHECK(play(path) == std::vector<int>{3});
-    CHECK_FALSE(fs::exists(path + ".part"));
+    CHECK(folder.names() == Names{"a.xvr"});
+}
+
+TEST_CASE("a recording touches no file of its user but the one that was named") {
+    const Folder folder;
+    const std::string path = folder.file("a.xvr");
+    const Names names = {"a.xvr.part", "a.xvr.tmp", "a.part", fmt::format(".xorvox-{}-0.tmp", ::getpid())};
+    for (const std::string& name : names) write_all(folder.file(name), "precious");
+    record(path, {3});
+    for (const std::string& name : names) CHECK(read_all(folder.file(name)) == "precious");
+    CHECK(folder.names().size() == names.size() + 1);
+}
+
+TEST_CASE("two recordings of one name do not mix: the one that is complete last stays") {
+    const Folder folder;
+    const std::string path = folder.file("a.xvr");
+    const auto first = open_file_writer(path), second = open_file_writer(path);
+    REQUIRE(first);
+    REQUIRE(second);
+    for (std::size_t i = 0; i < 3; ++i) {
+        REQUIRE((*first)->send(std::vector<std::byte>(10)) == Status::Ok);
+        REQUIRE((*second)->send(std::vector<std::byte>(20)) == Status::Ok);
+    }
+    REQUIRE(commit_file(second->get()));
+    CHECK(play(path) == std::vector<int>{20, 20, 20});
+    REQUIRE(commit_file(first->get()));
+    CHECK(play(path) == std::vector<int>{10, 10, 10});
+    CHECK(folder.names() == Names{"a.xvr"});
+}
+
+TEST_CASE("a recording follows a link and stays where it points") {
+    const Folder folder;
+    fs::create_directory(folder.file("there"));
+    write_all(folder.file("there/real"), "old");
+    fs::create_symlink("there/real", folder.file("link"));
+    record(folder.file("link"), {3});
+    CHECK(fs::is_symlink(folder.file("link")));
+    CHECK(play(folder.file("there/real")) == std::vector<int>{3});
+    CHECK(folder.names() == Names{"link", "there", "there/real"});
+}
+
+TEST_CASE("a recording's name may be without a folder") {
+    const Folder folder;
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path);
+    record("a.xvr", {3});
+    fs::current_path(before);
+    CHECK(folder.names() == Names{"a.xvr"});
 }
 
 TEST_CASE("the bytes of a recording are these") {
@@ -153,29 +210,35 @@ TEST_CASE("opening a recording says what is wrong with the file") {
 
 TEST_CASE("creating a recording says what is wrong with the place") {
     const Folder folder;
-    const auto nowhere = open_file_writer(folder.file("no/such/folder"));
-    REQUIRE_FALSE(nowhere);
-    CHECK(contains(nowhere.error(), "cannot be created"));
-
-    const auto directory = open_file_writer(folder.path.string());
-    REQUIRE_FALSE(directory);
-    CHECK(contains(directory.error(), "is no regular file"));
-
-    const auto device = open_file_writer("/dev/null");
-    REQUIRE_FALSE(device);
-    CHECK(contains(device.error(), "is no regular file"));
-    CHECK(folder.empty());
+    const auto refusal = [](const std::string& path) {
+        const auto writer = open_file_writer(path);
+        REQUIRE_FALSE(writer);
+        CHECK(writer.error().message.starts_with(path + ": "));
+        return writer.error();
+    };
+    CHECK(contains(refusal(folder.file("no/such/folder")), "cannot be created: No such file or directory"));
+    CHECK(contains(refusal(folder.path.string()), "is a directory"));
+    CHECK(contains(refusal("/dev/null"), "is a device or a pipe"));
+    fs::create_symlink("gone", folder.file("dangling"));
+    CHECK(contains(refusal(folder.file("dangling")), "is a link to nothing"));
+    fs::create_symlink("/dev/null", folder.file("null"));
+    CHECK(contains(refusal(folder.file("null")), "is a device or a pipe"));
+    CHECK(folder.names() == Names{"dangling", "null"});
 }
 
 TEST_CASE("a recording that cannot be completed says why and keeps nothing") {
     const Folder folder;
     const std::string path = folder.file("a.xvr");
-    const auto writer = open_file_writer(path);
-    REQUIRE(writer);
-    fs::create_directories(path);  // In the way of the name.
-    const auto committed = commit_file(writer->get());
-    REQUIRE_FALSE(committed);
-    CHECK(contains(committed.error(), "a.xvr: cannot be written"));
+    {
+        const auto writer = open_file_writer(path);
+        REQUIRE(writer);
+        fs::create_directories(path);  // In the way of the name.
+        const auto committed = commit_file(writer->get());
+        REQUIRE_FALSE(committed);
+        CHECK(contains(committed.error(), "a.xvr: cannot be written"));
+    }
+    CHECK(folder.names() == Names{"a.xvr"});
+    CHECK(fs::is_directory(path));
 }
 
 TEST_CASE("a reader takes answers and forgets them") {

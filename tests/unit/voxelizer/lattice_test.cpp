@@ -84,6 +84,26 @@ TEST_CASE("tables must be finite, and z increasing") {
     CHECK(status({1.0, 0.0}, 1.5e308, 1e308) == Status::OutOfRange);
 }
 
+TEST_CASE("a table whose heights are lost beside z0 is out of range") {
+    const auto status = [](std::vector<double> z0, std::vector<double> z) {
+        const std::vector<glm::dvec2> plan(z0.size());
+        return validate({.nx = static_cast<std::uint32_t>(z0.size()),
+                         .ny = 1,
+                         .nz = static_cast<std::uint32_t>(z.size()),
+                         .plan = plan,
+                         .z0 = z0,
+                         .z = z});
+    };
+    CHECK(status({1e17}, {0.0, 2000.0}) == Status::Ok);
+    CHECK(status({1e20}, {0.0, 2000.0}) == Status::OutOfRange);
+    CHECK(status({-1e20}, {0.0, 1000.0, 2000.0}) == Status::OutOfRange);
+    CHECK(status({1e20}, {0.0}) == Status::Ok);
+    CHECK(status({1e20, 2e20}, {0.0, 2000.0}) == Status::Ok);  // The box is high without the table.
+    CHECK(status({0.1}, {-0.3, 0.7}) == Status::Ok);           // Rounding by a last bit is no loss.
+    const double most = std::numeric_limits<double>::max();
+    CHECK(status({0x1p970}, {-most / 2, 0x1p1023}) == Status::OutOfRange);  // The box is finite, the table's rise not.
+}
+
 TEST_CASE("a table lattice may have more than 4096 columns a side, but 2^24 in all") {
     const std::vector<glm::dvec2> plan(5000);
     const std::vector<double> z{0.0};
