@@ -14,6 +14,7 @@ namespace {
 constexpr glm::vec3 kGroundTop(0.0055f, 0.0065f, 0.0095f);
 constexpr glm::vec3 kGroundBottom(0.0125f, 0.0145f, 0.0200f);
 constexpr float kWhite = 250.0f;       ///< What endless light becomes, of 255.
+constexpr float kExposure = 1.2f;      ///< White in full light is shown near kWhite.
 constexpr float kGlowOnObject = 0.2f;  ///< More would take the contrast from the object's shading.
 
 /// The mean over 2·radius + 1 pixels along every row of `lines`, and rows become columns.
@@ -58,9 +59,11 @@ float dither(std::uint32_t column, std::uint32_t row) {
     return static_cast<float>(outer - std::floor(outer));
 }
 
-std::uint8_t tone(float light, float rounding) {
-    const float shown = 1.0f - std::exp(-std::max(light, 0.0f));
-    return static_cast<std::uint8_t>(kWhite * srgb(shown) + rounding);
+/// The strongest channel is held below 1 and the others keep their share of it, so that strong light keeps its colour.
+glm::vec3 tone(const glm::vec3& light) {
+    const float strongest = std::max({light.r, light.g, light.b});
+    if (!(strongest > 0.0f)) return glm::vec3(0.0f);
+    return glm::max(light, 0.0f) * ((1.0f - std::exp(-kExposure * strongest)) / strongest);
 }
 
 }  // namespace
@@ -84,7 +87,10 @@ Image develop(const Film& film, float glow) {
             const glm::vec3 light =
                 glm::vec3(film.pixels[i]) + bare * ground + glm::mix(kGlowOnObject, 1.0f, bare) * halo;
             const float rounding = dither(column, row);
-            for (int channel = 0; channel < 3; ++channel) image.rgb.push_back(tone(light[channel], rounding));
+            const glm::vec3 shown = tone(light);
+            for (int channel = 0; channel < 3; ++channel) {
+                image.rgb.push_back(static_cast<std::uint8_t>(kWhite * srgb(shown[channel]) + rounding));
+            }
         }
     }
     return image;

@@ -30,7 +30,7 @@ struct Misbuild {
     std::int32_t swap_a = -1;  ///< Planes (stacked) or slices (rotating) a and b swapped; both −1: none.
     std::int32_t swap_b = -1;
     std::int32_t mirrored_panel = -1;  ///< Columns of this panel run the other way.
-    std::int32_t phase_slices = 0;      ///< The index mark, or the plane counter of a stack, is off by so many slices.
+    std::int32_t phase_slices = 0;     ///< The index mark, or the plane counter of a stack, is off by so many slices.
 };
 
 /// Lights every pixel of `page` (frame_bytes(display) in scan-out order, or empty: dark) that is not zero.

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
+#include <string_view>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -13,6 +13,8 @@
 
 #include "driver/display/lattice.h"
 #include "sim/develop.h"
+#include "sim/label.h"
+#include "sim/outline.h"
 #include "sim/picture.h"
 #include "sim/surface.h"
 
@@ -20,10 +22,10 @@ namespace xorvox::sim {
 namespace {
 
 constexpr std::uint32_t kFiner = 2;  ///< Drawn so many times larger, and averaged.
-constexpr double kFilled = 0.92;     ///< Share of a view's side that the display takes.
-constexpr float kFarthest = 0.3f;    ///< Brightness of what is at the back of the display.
+constexpr float kFarthest = 0.3f;    ///< Brightness of the farthest light.
 constexpr float kGlow = 0.2f;
-constexpr glm::vec3 kInside(0.010f, 0.012f, 0.017f);  ///< Added to the ground where the display is.
+constexpr glm::vec3 kTile(0.005f, 0.006f, 0.0085f);   ///< Added to the ground behind a view,
+constexpr glm::vec3 kInside(0.011f, 0.013f, 0.018f);  ///< and where the display is.
 
 /// Which way the world lies in a view: the axes that run to the right, up, and towards who looks.
 struct View {
@@ -31,8 +33,9 @@ struct View {
     int up;
     int towards;
     double towards_sign;
+    std::string_view name;
 };
-constexpr std::array<View, 3> kViews = {{{0, 2, 1, -1.0}, {1, 2, 0, 1.0}, {0, 1, 2, 1.0}}};
+constexpr std::array<View, 3> kViews = {{{0, 2, 1, -1.0, "front"}, {1, 2, 0, 1.0, "side"}, {0, 1, 2, 1.0, "top"}}};
 
 /// Half a voxel's size along the world's axes.
 glm::dvec3 upright_half(const Voxel& voxel) {
@@ -41,28 +44,82 @@ glm::dvec3 upright_half(const Voxel& voxel) {
                                      across.y * voxel.half_mm.x + across.x * voxel.half_mm.y, voxel.half_mm.z);
 }
 
+/// A box of space.
+struct Box {
+    glm::dvec3 lower{0.0};
+    glm::dvec3 upper{0.0};
+};
+
+/// The box that holds the voxels as they are drawn.
+Box box_of(const std::vector<Voxel>& voxels) {
+    Box box{voxels[0].place_mm, voxels[0].place_mm};
+    for (const Voxel& voxel : voxels) {
+        box.lower = glm::min(box.lower, voxel.place_mm - upright_half(voxel));
+        box.upper = glm::max(box.upper, voxel.place_mm + upright_half(voxel));
+    }
+    return box;
+}
+
+/// Where the views are on the sheet, in pixels: tiles side by side, of one height, as wide as their views need, in
+/// which one millimetre is as long everywhere.
+struct Layout {
+    Layout(const Box& box, std::uint32_t side)
+        : gutter(side / 60), label_size(side / 240), height(side - 2 * gutter), label_space(12 * label_size) {
+        const double pad = std::max(side / 20.0, 1.0);
+        glm::dvec3 wide(0.0);
+        double high = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            const View& view = kViews[static_cast<std::size_t>(i)];
+            wide[i] = box.upper[view.right] - box.lower[view.right];
+            high = std::max(high, box.upper[view.up] - box.lower[view.up]);
+        }
+        const double room = 3.0 * side - 4.0 * gutter - 6.0 * pad;
+        const double all = wide.x + wide.y + wide.z;
+        scale = std::min(room / all, (height - label_space - 2.0 * pad) / high);
+        double right = gutter;
+        for (std::size_t i = 0; i < kViews.size(); ++i) {
+            left[i] = static_cast<std::uint32_t>(right);
+            right += wide[static_cast<int>(i)] * scale + (room - all * scale) / 3.0 + 2.0 * pad;
+            width[i] = static_cast<std::uint32_t>(right) - left[i];
+            right += gutter;
+        }
+    }
+
+    std::uint32_t gutter;       ///< Between tiles and around them.
+    std::uint32_t label_size;   ///< 0 where a label would be too large.
+    std::uint32_t height;       ///< Of each tile.
+    std::uint32_t label_space;  ///< At the top of each tile.
+    double scale = 1.0;         ///< Pixels a millimetre.
+    std::array<std::uint32_t, 3> left{};
+    std::array<std::uint32_t, 3> width{};
+};
+
 /// One view, with a depth for each fine pixel.
 class Canvas {
 public:
-    Canvas(const View& view, const DisplayExtent& box, std::uint32_t side)
+    Canvas(const View& view, const Box& box, std::uint32_t width, std::uint32_t height, std::uint32_t label_space,
+           double scale)
         : view_(view),
           box_(box),
-          side_(side * kFiner),
-          scale_(kFilled * side_ / longest(box.upper - box.lower)),
-          film_{side_, side_, std::vector<glm::vec4>(std::size_t{side_} * side_)},
+          width_(width * kFiner),
+          height_(height * kFiner),
+          scale_(scale * kFiner),
+          middle_column_(width_ / 2.0),
+          middle_row_((height_ + label_space * kFiner) / 2.0),
+          film_{width_, height_, std::vector<glm::vec4>(std::size_t{width_} * height_)},
           depth_(film_.pixels.size(), -std::numeric_limits<double>::infinity()) {}
 
-    void draw_ground() {
-        const glm::dvec3 middle = (box_.lower + box_.upper) / 2.0;
-        const glm::dvec3 half = (box_.upper - box_.lower) / 2.0;
-        const bool round = box_.radius_mm > 0.0 && view_.towards == 2;
-        for (std::uint32_t row = 0; row < side_; ++row) {
-            for (std::uint32_t column = 0; column < side_; ++column) {
-                const double u = std::abs(right_mm(column) - middle[view_.right]);
-                const double v = std::abs(up_mm(row) - middle[view_.up]);
+    void draw_ground(const DisplayExtent& display) {
+        const glm::dvec3 centre = (display.lower + display.upper) / 2.0;
+        const glm::dvec3 half = (display.upper - display.lower) / 2.0;
+        const bool round = display.radius_mm > 0.0 && view_.towards == 2;
+        for (std::uint32_t row = 0; row < height_; ++row) {
+            for (std::uint32_t column = 0; column < width_; ++column) {
+                const double u = std::abs(right_mm(column) - centre[view_.right]);
+                const double v = std::abs(up_mm(row) - centre[view_.up]);
                 const bool inside =
-                    round ? std::hypot(u, v) <= box_.radius_mm : u <= half[view_.right] && v <= half[view_.up];
-                if (inside) pixel(column, row) = glm::vec4(kInside, 0.0f);
+                    round ? std::hypot(u, v) <= display.radius_mm : u <= half[view_.right] && v <= half[view_.up];
+                pixel(column, row) = glm::vec4(inside ? kInside : kTile, 0.0f);
             }
         }
     }
@@ -70,9 +127,10 @@ public:
     void draw(const Voxel& voxel) {
         const glm::dvec3 half = upright_half(voxel);
         const glm::dvec3& place = voxel.place_mm;
-        const Range columns =
-            range(column_at(place[view_.right] - half[view_.right]), column_at(place[view_.right] + half[view_.right]));
-        const Range rows = range(row_at(place[view_.up] + half[view_.up]), row_at(place[view_.up] - half[view_.up]));
+        const Range columns = range(column_at(place[view_.right] - half[view_.right]),
+                                    column_at(place[view_.right] + half[view_.right]), width_);
+        const Range rows =
+            range(row_at(place[view_.up] + half[view_.up]), row_at(place[view_.up] - half[view_.up]), height_);
         for (std::uint32_t row = rows.first; row < rows.last; ++row) {
             const double v = (up_mm(row) - place[view_.up]) / half[view_.up];
             for (std::uint32_t column = columns.first; column < columns.last; ++column) {
@@ -81,7 +139,7 @@ public:
                 if (rest < 0.0) continue;
                 const double bulge = std::sqrt(rest);
                 const double near = place[view_.towards] * view_.towards_sign + bulge * half[view_.towards];
-                double& nearest = depth_[std::size_t{row} * side_ + column];
+                double& nearest = depth_[std::size_t{row} * width_ + column];
                 if (near <= nearest) continue;
                 nearest = near;
                 const glm::vec3 bead(glm::dvec3(u, v, bulge));
@@ -90,12 +148,12 @@ public:
         }
     }
 
-    /// Copies the view, each pixel the mean of kFiner², to `sheet` from column `left` on.
-    void put(Film& sheet, std::uint32_t left) const {
-        for (std::uint32_t row = 0; row < side_; ++row) {
-            for (std::uint32_t column = 0; column < side_; ++column) {
-                sheet.pixels[std::size_t{row / kFiner} * sheet.width + left + column / kFiner] +=
-                    film_.pixels[std::size_t{row} * side_ + column] / static_cast<float>(kFiner * kFiner);
+    /// Copies the view, each pixel the mean of kFiner², to `sheet` from column `left` and row `top` on.
+    void put(Film& sheet, std::uint32_t left, std::uint32_t top) const {
+        for (std::uint32_t row = 0; row < height_; ++row) {
+            for (std::uint32_t column = 0; column < width_; ++column) {
+                sheet.pixels[std::size_t{top + row / kFiner} * sheet.width + left + column / kFiner] +=
+                    film_.pixels[std::size_t{row} * width_ + column] / static_cast<float>(kFiner * kFiner);
             }
         }
     }
@@ -106,19 +164,21 @@ private:
         std::uint32_t last;
     };
 
-    static double longest(const glm::dvec3& size) { return std::max({size.x, size.y, size.z}); }
     glm::vec4& pixel(std::uint32_t column, std::uint32_t row) {
-        return film_.pixels[std::size_t{row} * side_ + column];
+        return film_.pixels[std::size_t{row} * width_ + column];
     }
     double middle(int axis) const { return (box_.lower[axis] + box_.upper[axis]) / 2.0; }
-    double right_mm(std::uint32_t column) const { return middle(view_.right) + (column + 0.5 - side_ / 2.0) / scale_; }
-    double up_mm(std::uint32_t row) const { return middle(view_.up) - (row + 0.5 - side_ / 2.0) / scale_; }
-    double column_at(double mm) const { return (mm - middle(view_.right)) * scale_ + side_ / 2.0; }
-    double row_at(double mm) const { return (middle(view_.up) - mm) * scale_ + side_ / 2.0; }
-    /// The pixels whose middles are between two places; at least one, so that nothing is lost in a small picture.
-    Range range(double from, double to) const {
-        const double first = std::clamp(std::ceil(from - 0.5), 0.0, side_ - 1.0);
-        const double last = std::clamp(std::floor(to + 0.5), first + 1.0, static_cast<double>(side_));
+    double right_mm(std::uint32_t column) const {
+        return middle(view_.right) + (column + 0.5 - middle_column_) / scale_;
+    }
+    double up_mm(std::uint32_t row) const { return middle(view_.up) - (row + 0.5 - middle_row_) / scale_; }
+    double column_at(double mm) const { return (mm - middle(view_.right)) * scale_ + middle_column_; }
+    double row_at(double mm) const { return (middle(view_.up) - mm) * scale_ + middle_row_; }
+    /// Of `count` pixels, those whose middles are between two places; at least one, so that nothing is lost in a small
+    /// picture.
+    static Range range(double from, double to, std::uint32_t count) {
+        const double first = std::clamp(std::ceil(from - 0.5), 0.0, count - 1.0);
+        const double last = std::clamp(std::floor(to + 0.5), first + 1.0, static_cast<double>(count));
         return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
     }
 
@@ -136,9 +196,12 @@ private:
     }
 
     View view_;
-    DisplayExtent box_;
-    std::uint32_t side_;
+    Box box_;  ///< Of the light.
+    std::uint32_t width_;
+    std::uint32_t height_;
     double scale_;  ///< Fine pixels a millimetre.
+    double middle_column_;
+    double middle_row_;
     Film film_;
     std::vector<double> depth_;
 };
@@ -148,19 +211,17 @@ private:
 Picture render_orthographic(const DisplayDescription& display, const LightField& field, std::uint32_t side) {
     assert(side >= 16 && side <= 2048);
     const std::vector<Voxel> voxels = visible_voxels(display, field);
-    DisplayExtent box = extent(display);
-    for (const Voxel& voxel : voxels) {
-        box.lower = glm::min(box.lower, voxel.place_mm);
-        box.upper = glm::max(box.upper, voxel.place_mm);
-    }
+    const DisplayExtent space = drawn_extent(display);
+    const Box box = voxels.empty() ? Box{space.lower, space.upper} : box_of(voxels);
+    const Layout layout(box, side);
 
-    const auto views = static_cast<std::uint32_t>(kViews.size());
-    Film sheet{views * side, side, std::vector<glm::vec4>(std::size_t{views} * side * side)};
-    for (std::uint32_t i = 0; i < views; ++i) {
-        Canvas canvas(kViews[i], box, side);
-        canvas.draw_ground();
+    Film sheet{3 * side, side, std::vector<glm::vec4>(std::size_t{3} * side * side)};
+    for (std::size_t i = 0; i < kViews.size(); ++i) {
+        Canvas canvas(kViews[i], box, layout.width[i], layout.height, layout.label_space, layout.scale);
+        canvas.draw_ground(space);
         for (const Voxel& voxel : voxels) canvas.draw(voxel);
-        canvas.put(sheet, i * side);
+        canvas.put(sheet, layout.left[i], layout.gutter);
+        draw_label(sheet, kViews[i].name, layout.left[i] + layout.gutter, 2 * layout.gutter, layout.label_size);
     }
     Picture picture;
     picture.image = develop(sheet, kGlow);

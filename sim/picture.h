@@ -39,8 +39,9 @@ Expected<Picture> render_perspective(const DisplayDescription& display, const Li
                                      const PictureOptions& options = {});
 
 /// Three views side by side at one scale, without OpenGL: front (from -y: x to the right, z up), side (from +x: y to
-/// the right, z up) and top (from +z: x to the right, y up). What is nearer is brighter. Each view is `side` pixels
-/// square. `side`: 16 … 2048.
+/// the right, z up) and top (from +z: x to the right, y up), with their names from 240 pixels on. The scale is the
+/// largest at which the lit object fits, with a margin; nothing lit: the display. What is nearer is brighter; the
+/// ground is lighter where the display is. The picture is 3·`side` pixels wide and `side` high. `side`: 16 … 2048.
 Picture render_orthographic(const DisplayDescription& display, const LightField& field, std::uint32_t side = 480);
 
 }  // namespace xorvox::sim

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "driver/display/toml.h"
+
 namespace xorvox::sim {
 namespace {
 
@@ -32,6 +34,7 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 Simulator::~Simulator() = default;
 
 Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link, const SimulatorOptions& options) {
+    if (const Expected<void> valid = validate_display(display); !valid) return tl::unexpected(valid.error());
     auto impl = std::make_unique<Impl>();
     impl->display = display;
     impl->misbuild = options.misbuild;

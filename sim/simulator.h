@@ -19,13 +19,15 @@ namespace xorvox::sim {
 struct SimulatorOptions {
     std::uint32_t pages = 3;
     std::uint32_t max_packet_bytes = 65536;
-    std::uint32_t boot_nonce = 1;
-    Misbuild misbuild;  ///< Ways in which this display differs from its description; none.
+    std::uint32_t boot_nonce = 1;  ///< The same in every run, for tests; give a random one where hosts may come again.
+    Misbuild misbuild;             ///< Ways in which this display differs from its description; none.
 };
 
 /// Deterministic: everything follows from the packets and the times given to poll(). One thread.
 class Simulator {
 public:
+    /// A display that is switched on at time 0 with `link` at its plug (empty: see set_link). Fails for a display that
+    /// validate_display() refuses, with its words, and for sizes that no device has. Throws std::bad_alloc.
     static Expected<Simulator> make(const DisplayDescription& display, Link link, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
     Simulator& operator=(Simulator&&) noexcept;

@@ -11,9 +11,9 @@ using Catch::Approx;
 #include <cstdio>
 
 /// Ends a test case that cannot run here; CTest counts it as skipped because of what this prints.
-#define XORVOX_SKIP(reason)                              \
-    do {                                                 \
+#define XORVOX_SKIP(reason)                                        \
+    do {                                                           \
         std::printf("SKIPPED: %s\n", std::string(reason).c_str()); \
-        SUCCEED();                                       \
-        return;                                          \
+        SUCCEED();                                                 \
+        return;                                                    \
     } while (false)

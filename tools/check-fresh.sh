@@ -7,7 +7,7 @@
 # FOLDER (default: a new one under $TMPDIR) must not exist; it is deleted at the end unless --keep is given. The package
 # mirror and apt's settings are taken from the running machine.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+self=$(realpath "$0")
 
 demo_only=false keep=false folder=
 for argument in "$@"; do
@@ -15,7 +15,7 @@ for argument in "$@"; do
         --demo-only) demo_only=true ;;
         --keep) keep=true ;;
         -*) echo "usage: tools/check-fresh.sh [--demo-only] [--keep] [FOLDER]" >&2; exit 2 ;;
-        *) folder=$argument ;;
+        *) folder=$(realpath -m "$argument") ;;
     esac
 done
 
@@ -24,14 +24,10 @@ die() { echo "check-fresh: $*" >&2; exit 1; }
 command -v debootstrap >/dev/null || die "debootstrap is missing: apt-get install debootstrap"
 if [ -z "${CHECK_FRESH_INSIDE:-}" ]; then
     # A mount namespace of our own: nothing mounted below outlives this script.
-    CHECK_FRESH_INSIDE=1 exec unshare --mount --propagation private "$0" "$@"
+    CHECK_FRESH_INSIDE=1 exec unshare --mount --propagation private "$self" "$@"
 fi
 folder=${folder:-${TMPDIR:-/tmp}/xorvox-fresh-$$}
 [ ! -e "$folder" ] || die "$folder exists already; name a folder that does not"
-mkdir -p "$folder"
-free_kib=$(df --output=avail -k "$folder" | tail -n 1)
-[ "$free_kib" -gt $((10 * 1024 * 1024)) ] || die "$folder has $((free_kib / 1024)) MiB free; 10 GB are needed"
-
 unmount() {
     local mounted
     for mounted in $(awk -v root="$folder/" 'index($2, root) == 1 { print $2 }' /proc/self/mounts | sort -r); do
@@ -47,6 +43,10 @@ finish() {
     fi
 }
 trap finish EXIT
+mkdir -p "$folder"
+cd "$(dirname "$self")/.."
+free_kib=$(df --output=avail -k "$folder" | tail -n 1)
+[ "$free_kib" -gt $((10 * 1024 * 1024)) ] || die "$folder has $((free_kib / 1024)) MiB free; 10 GB are needed"
 
 # "SITE CODENAME COMPONENT" of every Debian archive that this machine uses.
 archives=$(apt-get indextargets --format '$(ORIGIN) $(SITE) $(CODENAME) $(COMPONENT)' 'Identifier: Packages' |
@@ -56,8 +56,9 @@ mirror=$(awk '$2 == "bookworm" { print $1; exit }' <<<"$archives")
 
 echo "== a bare Debian 12 in $folder"
 start=$SECONDS
-debootstrap --variant=minbase bookworm "$folder" "$mirror" >"$folder.log" 2>&1 || { tail "$folder.log" >&2; die "debootstrap failed"; }
-rm -f "$folder.log"
+log=$(mktemp)
+debootstrap --variant=minbase bookworm "$folder" "$mirror" >"$log" 2>&1 || { tail "$log" >&2; die "debootstrap failed; its output is in $log"; }
+rm -f "$log"
 awk '{ print "deb", $1, $2, $3 }' <<<"$archives" >"$folder/etc/apt/sources.list"
 cp -a /etc/apt/apt.conf.d/. "$folder/etc/apt/apt.conf.d/"
 for file in /etc/apt/auth.conf /etc/resolv.conf /etc/hosts; do

@@ -45,7 +45,8 @@ struct ShowOptions {
     std::string to = "loopback";
     std::string color = "gradient";
     std::string png;
-    std::string view = "perspective";
+    std::string view;   ///< "perspective", the default of --png, or "orthographic".
+    bool hold = false;  ///< Stay until a signal.
     bool json = false;
 };
 

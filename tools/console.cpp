@@ -10,8 +10,14 @@
 
 namespace xorvox::tools {
 
+void complain(std::string_view message) noexcept {
+    std::fputs("xorvox: ", stderr);
+    std::fwrite(message.data(), 1, message.size(), stderr);
+    std::fputc('\n', stderr);
+}
+
 void warn(std::string_view message) {
-    fmt::print(stderr, "xorvox: warning: {}\n", message);
+    complain("warning: " + std::string(message));
 }
 
 std::string thousands(std::uint64_t number) {

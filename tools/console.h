@@ -8,7 +8,10 @@
 
 namespace xorvox::tools {
 
-/// One line on standard error, after "xorvox: warning: ".
+/// One line on standard error, after "xorvox: ". Never throws, even when standard error is closed.
+void complain(std::string_view message) noexcept;
+
+/// complain(), after "warning: ".
 void warn(std::string_view message);
 
 /// 47815 as "47,815".

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -9,6 +10,11 @@
 namespace xorvox::tools {
 namespace {
 
+/// JSON has no infinities.
+std::string json_number(double number) {
+    return std::isfinite(number) ? fmt::format("{}", number) : "null";
+}
+
 void print_json(const std::string& path, const io::MeshReport& r) {
     fmt::print(
         "{{\"mesh\": {}, \"vertices\": {}, \"faces\": {}, \"triangles\": {}, \"min\": [{}, {}, {}], \"max\": [{}, {}, "
@@ -18,7 +24,7 @@ void print_json(const std::string& path, const io::MeshReport& r) {
         "{}}}\n",
         json_string(path), r.vertices, r.faces, r.triangles, r.min.x, r.min.y, r.min.z, r.max.x, r.max.y, r.max.z,
         r.closed_mod2, r.open_edges, r.non_manifold_edges, r.inconsistent_edges, r.degenerate_faces, r.duplicate_faces,
-        r.components, io::to_string(r.orientation), r.signed_volume);
+        r.components, io::to_string(r.orientation), json_number(r.signed_volume));
 }
 
 void print_text(const std::string& path, const io::MeshReport& r) {

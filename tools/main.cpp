@@ -2,15 +2,20 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include "tools/commands.h"
+#include "tools/console.h"
 
 namespace {
 
@@ -18,6 +23,16 @@ using namespace xorvox;
 using namespace xorvox::tools;
 
 constexpr int kFailure = 2;
+
+/// "64" into a number of voxels.
+std::uint32_t parse_count(const std::string& option, const std::string& text) {
+    std::uint32_t number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || stop != text.data() + text.size()) {
+        throw CLI::ValidationError(option, fmt::format("'{}' is not a whole number", text));
+    }
+    return number;
+}
 
 /// "1,2.5,3" into a vector; one number stands for three where `one_for_all`.
 glm::dvec3 parse_vector(const std::string& option, const std::string& text, bool one_for_all) {
@@ -55,8 +70,8 @@ void add_mesh(CLI::App& app, MeshOptions& mesh) {
     app.add_option("mesh", mesh.path, "The mesh: a .ply, .stl or .obj file")->required()->type_name("MESH");
     app.add_option("--unit", mesh.unit, "The unit of the file's numbers, which then become millimetres")
         ->type_name("mm|cm|m|in|ft");
-    app.add_option("--up", mesh.up, "The axis that points up in the file; the mesh is turned so that it is z")
-        ->capture_default_str()
+    app.add_option("--up", mesh.up,
+                   "The axis that points up in the file; the mesh is turned so that it is z (default z)")
         ->type_name("x|y|z");
 }
 
@@ -88,13 +103,14 @@ Command voxelize_command(CLI::App& program, VoxelizeOptions& options) {
     add_strict(app, options.mesh);
     app.add_option("-o,--output", options.output, "The volume: .nrrd, .binvox or .bits")->required()->type_name("OUT");
     CLI::Option* size =
-        app.add_option("--size", options.grid.size,
-                       "A cube of N voxels a side around the mesh, 1/64 of room on each side (default 64)")
+        app.add_option_function<std::string>(
+               "--size", [&options](const std::string& text) { options.grid.size = parse_count("--size", text); },
+               "A cube of N voxels a side around the mesh, 1/64 of room on each side (default 64)")
             ->type_name("N");
     add_vector(app, "--grid", options.grid.grid, false, "NX,NY,NZ",
                "Voxels along x, y and z; needs --origin and --pitch");
     add_vector(app, "--origin", options.grid.origin, false, "X,Y,Z",
-               "The outer corner of voxel 0,0,0, in the mesh's units");
+               "The outer corner of voxel 0,0,0, in the units of the mesh (mm with --unit)");
     add_vector(app, "--pitch", options.grid.pitch, true, "P[,PY,PZ]", "The size of a voxel");
     size->excludes("--grid")->excludes("--origin")->excludes("--pitch");
     app.add_flag("--json", options.json, "One JSON object on standard output");
@@ -112,15 +128,21 @@ Command show_command(CLI::App& program, ShowOptions& options) {
         ->required()
         ->type_name("NAME|FILE.toml");
     app.add_option("--to", options.to,
-                   "Where it goes: loopback (a simulated display in this program), tcp:HOST:PORT, or file:PATH")
+                   "Where it goes: loopback (a simulated display in this program, the default), tcp:HOST:PORT, or "
+                   "file:PATH")
         ->type_name("ADDRESS");
-    app.add_option("--color", options.color,
-                   "constant:NAME, constant:#rrggbb, gradient, gradient:NAME,NAME, noise or noise:SCALE")
+    app.add_option(
+           "--color", options.color,
+           "constant:NAME, constant:#rrggbb, gradient (the default), gradient:NAME,NAME from bottom to top, noise "
+           "or noise:SCALE; NAME is a colour as in CSS, and a wrong one lists them all")
         ->type_name("KIND:ARGS");
     app.add_option("--png", options.png, "A picture of the light; needs --to loopback")->type_name("OUT.png");
-    app.add_option("--view", options.view, "perspective, or orthographic: front, side and top")
+    app.add_option("--view", options.view,
+                   "What --png draws: perspective (the default), or orthographic: front, side and top")
         ->check(CLI::IsMember({"perspective", "orthographic"}))
         ->type_name("VIEW");
+    app.add_flag("--hold", options.hold,
+                 "Stay until interrupted. Without it a display goes dark when its watchdog (2 s) misses the host");
     app.add_flag("--json", options.json, "What was sent and what lit up, as one JSON object on standard output");
     examples(app,
              "  xorvox show bunny.ply --up y --display vortex --png bunny.png\n"
@@ -183,9 +205,11 @@ int main_program(int argc, char** argv) {
                                         displays_command(program, displays_options)};
 
     const std::vector<std::string> names = command_names(commands);
-    if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
-        fmt::print(stderr, "xorvox: there is no command '{}'; there are {}; see xorvox --help\n", argv[1],
-                   fmt::join(names, ", "));
+    const std::string first = argc > 1 ? argv[1] : "";
+    if (!first.empty() && first != "--version" && first != "--help" && first != "-h" &&
+        std::find(names.begin(), names.end(), first) == names.end()) {
+        complain(fmt::format("there is no {} '{}'; there are {}; see xorvox --help",
+                             first.starts_with('-') ? "option" : "command", first, fmt::join(names, ", ")));
         return kFailure;
     }
     try {
@@ -193,35 +217,54 @@ int main_program(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return program.exit(error);
         std::string help = "xorvox --help";
+        std::string what = one_line(error.what());
         for (const Command& command : commands) {
-            if (command.app->parsed()) help = fmt::format("xorvox {} --help", command.app->get_name());
+            if (!command.app->parsed()) continue;
+            help = fmt::format("xorvox {} --help", command.app->get_name());
+            // CLI11 lists these from the last to the first.
+            if (const auto extra = command.app->remaining(); !extra.empty()) {
+                what = fmt::format("'{}' is not known to xorvox {}", extra.front(), command.app->get_name());
+            }
         }
-        fmt::print(stderr, "xorvox: {}; see {}\n", one_line(error.what()), help);
+        complain(fmt::format("{}; see {}", what, help));
         return kFailure;
     }
     for (const Command& command : commands) {
         if (!command.app->parsed()) continue;
         if (const Expected<void> done = command.run(); !done) {
-            fmt::print(stderr, "xorvox: {}\n", done.error().message);
+            complain(one_line(done.error().message));
             return kFailure;
         }
     }
     if (std::fflush(stdout) != 0) {
-        fmt::print(stderr, "xorvox: standard output could not be written\n");
+        complain("standard output could not be written; files that were asked for are whole");
         return kFailure;
     }
     return 0;
 }
 
+/// Standard streams that the caller closed become ones that fail, so that no file or socket gets their numbers.
+void occupy_standard_streams() {
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(fd, F_GETFD) != -1) continue;
+        // The lowest free number is this one. If /dev/null is not there either, nothing is lost.
+        (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    occupy_standard_streams();
+    setenv("EGL_LOG_LEVEL", "fatal", 0);  // Mesa explains itself on standard error; our one line says it
     try {
         return main_program(argc, argv);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "xorvox: not enough memory for this; try a smaller mesh, grid or display\n");
+        complain("not enough memory for this; try a smaller mesh, grid or display");
+    } catch (const std::system_error& error) {
+        complain(one_line(error.what()));  // fmt, when standard output cannot be written
     } catch (const std::exception& error) {
-        fmt::print(stderr, "xorvox: internal error: {}\n", error.what());
+        complain(fmt::format("internal error: {}", one_line(error.what())));
     }
     return kFailure;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "tools/console.h"
+#include "voxelizer/io/file_name.h"
 #include "voxelizer/io/mesh_file.h"
 
 namespace xorvox::tools {
@@ -36,7 +37,7 @@ Expected<MeshInput> read_solid(const MeshOptions& options) {
     if (!input || input->report.closed_mod2) return input;
     const std::size_t open = input->report.open_edges;
     const std::string found =
-        fmt::format("{}: {} open {}", options.path, thousands(open), open == 1 ? "edge" : "edges");
+        fmt::format("{}: {} open {}", io::printable_name(options.path), thousands(open), open == 1 ? "edge" : "edges");
     if (options.strict)
         return fail(found + ", and --strict wants a closed mesh; close its holes or leave out --strict");
     warn(found + "; columns are counted from below, so holes may leave streaks (xorvox info tells more)");

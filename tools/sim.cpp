@@ -1,8 +1,7 @@
 // sim: a display in a program of its own, for clients over tcp. One at a time; the picture outlives its client.
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -11,21 +10,15 @@
 #include "sim/statistics.h"
 #include "tools/commands.h"
 #include "tools/console.h"
+#include "tools/stop.h"
 #include "transport/address.h"
 #include "transport/tcp.h"
 
 namespace xorvox::tools {
 namespace {
 
-std::atomic<bool> asked_to_stop = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
-
-void stop_on_signals() {
-    struct sigaction action = {};
-    action.sa_handler = [](int) { asked_to_stop = true; };
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
+/// A client that says nothing for so long makes room for the next one. A host that is there sends twice a second.
+constexpr std::uint64_t kPatience_ns = 5'000'000'000;
 
 std::uint64_t clock_ns() {
     return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
@@ -90,7 +83,9 @@ Expected<void> sim(const SimOptions& options) {
     }
     const Expected<DisplayDescription> display = load_display(options.display);
     if (!display) return tl::unexpected(display.error());
-    Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{});
+    // As a device draws one at each start: hosts that come again see that this is another run.
+    const sim::SimulatorOptions simulated{.boot_nonce = std::random_device{}()};
+    Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{}, simulated);
     if (!simulator) return tl::unexpected(simulator.error());
     Expected<transport::TcpListener> listener = transport::TcpListener::listen(address->port, address->host);
     if (!listener) return tl::unexpected(listener.error());
@@ -102,15 +97,18 @@ Expected<void> sim(const SimOptions& options) {
     events.listening(transport::to_string(actual));
 
     UniqueLink client;
-    while (!asked_to_stop) {
+    std::uint64_t heard_ns = 0;
+    while (!asked_to_stop()) {
         const std::uint64_t now_ns = clock_ns();
         if (!client && listener->accept(client) == Status::Ok) {
             events.client(true);
             simulator->set_link(client.get());
+            heard_ns = now_ns;
         }
         const Status moved = simulator->poll(now_ns);
         events.shown(*simulator, now_ns);
-        if (client && moved == Status::Closed) {
+        if (moved == Status::Ok) heard_ns = now_ns;
+        if (client && (moved == Status::Closed || now_ns - heard_ns > kPatience_ns)) {
             simulator->set_link(Link{});
             client.reset();
             events.client(false);
@@ -120,7 +118,7 @@ Expected<void> sim(const SimOptions& options) {
         const std::int64_t idle_ns = until_ns(simulator->next_boundary_ns(), clock_ns());
         // Ok, Timeout or a signal: the loop looks at everything again.
         if (client) {
-            (void)client->wait(kLinkReadable, idle_ns);
+            (void)client->wait(simulator->device().events(), idle_ns);
         } else {
             (void)listener->wait(idle_ns);
         }

@@ -6,6 +6,7 @@
 #include "tools/console.h"
 #include "tools/mesh_input.h"
 #include "tools/placement.h"
+#include "voxelizer/io/atomic_file.h"
 #include "voxelizer/io/volume_file.h"
 #include "voxelizer/voxelize.h"
 
@@ -13,6 +14,8 @@ namespace xorvox::tools {
 
 Expected<void> voxelize(const VoxelizeOptions& options) {
     if (const auto known = io::check_volume_path(options.output); !known) return known;
+    // Whether it can be written is said now, not after the work.
+    if (const auto probe = io::AtomicFile::create(options.output); !probe) return tl::unexpected(probe.error());
     const Expected<MeshInput> input = read_solid(options.mesh);
     if (!input) return tl::unexpected(input.error());
     const MeshView mesh = input->mesh.view();

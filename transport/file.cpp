@@ -24,19 +24,20 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-std::string describe(int error) {
-    return std::generic_category().message(error);
-}
-
 class FileWriter {
 public:
-    FileWriter(File file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
+    /// Writes into `file`, which stands at `temporary` until it moves to `target`. Messages call it `path`.
+    FileWriter(File file, std::string path, std::string target, std::string temporary)
+        : file_(std::move(file)),
+          path_(std::move(path)),
+          target_(std::move(target)),
+          temporary_(std::move(temporary)) {}
     FileWriter(const FileWriter&) = delete;
     FileWriter& operator=(const FileWriter&) = delete;
     ~FileWriter() {
         if (committed_) return;
         file_.reset();
-        std::remove(part_path().c_str());
+        std::remove(temporary_.c_str());
     }
 
     LinkInfo info() const { return {"file", kMaxPacketBytes, false}; }
@@ -73,7 +74,7 @@ public:
         if (committed_) return {};
         if (flush() == Status::Ok && ::fsync(::fileno(file_.get())) != 0) error_ = errno;
         if (error_ == 0 && std::fclose(file_.release()) != 0) error_ = errno;
-        if (error_ == 0 && std::rename(part_path().c_str(), path_.c_str()) != 0) error_ = errno;
+        if (error_ == 0 && std::rename(temporary_.c_str(), target_.c_str()) != 0) error_ = errno;
         if (error_ != 0)
             return fail(fmt::format("{}: cannot be written: {}; nothing was kept", path_, describe(error_)));
         committed_ = true;
@@ -81,10 +82,10 @@ public:
     }
 
 private:
-    std::string part_path() const { return path_ + ".part"; }
-
     File file_;
     std::string path_;
+    std::string target_;
+    std::string temporary_;
     int error_ = 0;
     bool committed_ = false;
 };
@@ -118,23 +119,41 @@ private:
     FramedInput input_;
 };
 
+/// Where a recording goes: `path`, or what it links to. Renaming onto a folder, a device or a pipe would fail or
+/// replace it. The rules of voxelizer/io/atomic_file.h, which transport does not include.
+Expected<std::string> resolve(const std::string& path) {
+    using std::filesystem::file_type;
+    std::error_code ignored;
+    const file_type type = std::filesystem::status(path, ignored).type();
+    if (type == file_type::directory) return fail(fmt::format("{}: is a directory; name a file in it", path));
+    if (type != file_type::regular && type != file_type::not_found && type != file_type::none) {
+        return fail(fmt::format("{}: is a device or a pipe, which cannot be replaced as a whole; name a file", path));
+    }
+    if (std::filesystem::symlink_status(path, ignored).type() != file_type::symlink) return path;
+    std::error_code error;
+    std::string target = std::filesystem::canonical(path, error).string();
+    if (error) return fail(fmt::format("{}: is a link to nothing; remove it or choose another name", path));
+    return target;
+}
+
 }  // namespace
 
 Expected<UniqueLink> open_file_writer(const std::string& path) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    // Renaming onto a device node or a pipe would replace it.
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        return fail(fmt::format("{}: is no regular file; give the name of a new file", path));
+    auto target = resolve(path);
+    if (!target) return tl::unexpected(std::move(target.error()));
+    const std::filesystem::path folder = std::filesystem::path(*target).parent_path();
+    for (unsigned attempt = 0;; ++attempt) {
+        std::string temporary = (folder / fmt::format(".xorvox-{}-{}.tmp", ::getpid(), attempt)).string();
+        File file(std::fopen(temporary.c_str(), "wbxe"));  // x: O_EXCL, no file that is there already; e: O_CLOEXEC.
+        if (!file && errno == EEXIST) continue;
+        if (!file) {
+            return fail(
+                fmt::format("{}: cannot be created: {}; its folder must exist and be writable", path, describe(errno)));
+        }
+        auto writer = std::make_unique<FileWriter>(std::move(file), path, std::move(*target), std::move(temporary));
+        writer->write(std::as_bytes(std::span(kHead)));
+        return make_unique_link(writer.release());
     }
-    File file(std::fopen((path + ".part").c_str(), "wb"));
-    if (!file) {
-        return fail(
-            fmt::format("{}.part: cannot be created: {}; check the folder and its permissions", path, describe(errno)));
-    }
-    auto writer = std::make_unique<FileWriter>(std::move(file), path);
-    writer->write(std::as_bytes(std::span(kHead)));
-    return make_unique_link(writer.release());
 }
 
 Expected<void> commit_file(Link writer) {

@@ -12,10 +12,12 @@
 
 namespace xorvox::transport {
 
-/// A link that writes what it is sent to PATH.part. The file gets its name in commit_file(); a link that is closed
-/// before leaves nothing behind, so a recording is there whole or not at all. An existing file is replaced then, not
-/// earlier. receive() answers Unsupported. A full disk closes the link: send() answers Closed and commit_file() says
-/// why.
+/// A link that writes what it is sent to a temporary file of its own (.xorvox-PID-N.tmp) in the folder of `path`. The
+/// file gets its name in commit_file(); a link that is closed before leaves nothing behind, so a recording is there
+/// whole or not at all. (A process that is killed leaves the temporary file.) An existing file is replaced then, not
+/// earlier; of several writers for one path, the last that is committed stays. A symbolic link is followed;
+/// directories, devices and pipes are refused. receive() answers Unsupported. A full disk closes the link: send()
+/// answers Closed and commit_file() says why. Messages begin with `path`.
 Expected<UniqueLink> open_file_writer(const std::string& path);
 
 /// Completes a recording: everything is on the disk and the file has its name. `writer` is what open_file_writer()

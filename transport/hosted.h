@@ -1,4 +1,5 @@
-// What the hosted backends share: an operations table made from a class, the input side of a byte stream, deadlines.
+// What the hosted backends share: an operations table made from a class, the input side of a byte stream, deadlines,
+// the system's words for its errors.
 //
 // Internal to transport; not installed. A backend for firmware writes its table by hand, as link_template.cpp does.
 #pragma once
@@ -9,6 +10,8 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "transport/framing.h"
@@ -43,6 +46,11 @@ inline std::chrono::steady_clock::time_point deadline_after(std::int64_t timeout
            std::chrono::nanoseconds(std::clamp<std::int64_t>(timeout_ns, 0, kYearNs));
 }
 
+/// What the system says of `error`, a value of errno. Thread-safe, unlike std::strerror.
+inline std::string describe(int error) {
+    return std::generic_category().message(error);
+}
+
 /// The receiving side of a link over a byte stream. `read` puts bytes into the span that it gets and answers how many;
 /// 0 at the stream's end and kNothingYet when it would have to wait.
 class FramedInput {
@@ -53,10 +61,12 @@ public:
     FramedInput(const FramedInput&) = delete;  // decoder_ points into packet_.
     FramedInput& operator=(const FramedInput&) = delete;
 
-    /// Reads on until receive() has something to say. Ok: it has. WouldBlock. Closed: the end, and everything was
-    /// given.
+    /// Reads on until receive() has something to say. Ok: it has. WouldBlock: not yet, or not in the bounded number of
+    /// bytes that one call looks at, so that a peer who sends nonsense without a pause holds up nobody. Closed: the
+    /// end, and everything was given.
     template <class Read>
     Status pull(Read&& read) {
+        int reads_left = 16;
         while (!has_packet_ && !corrupt_) {
             if (begin_ < end_) {
                 std::size_t consumed = 0;
@@ -67,6 +77,7 @@ public:
                 continue;
             }
             if (ended_) return Status::Closed;
+            if (reads_left-- == 0) return Status::WouldBlock;
             const std::ptrdiff_t count = read(std::span(bytes_));
             if (count == kNothingYet) return Status::WouldBlock;
             begin_ = 0;

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -21,10 +20,6 @@ namespace xorvox::transport {
 namespace {
 
 using TimePoint = std::chrono::steady_clock::time_point;
-
-std::string describe(int error) {
-    return std::generic_category().message(error);
-}
 
 std::string address_text(const std::string& host, std::uint16_t port) {
     Address address;
@@ -110,7 +105,8 @@ public:
             const bool listens = pulled == Status::WouldBlock;
             const auto wanted = static_cast<short>((listens ? POLLIN : 0) | (unsent ? POLLOUT : 0));
             const short came = poll_until(socket_.get(), wanted, deadline);
-            if (came == 0) return Status::Timeout;
+            // Nonsense without a pause keeps the socket readable and brings no packet: the time counts, too.
+            if (came == 0 || std::chrono::steady_clock::now() >= deadline) return Status::Timeout;
             if (!listens && (came & (POLLHUP | POLLERR)) != 0) return Status::Ok;
         }
     }

@@ -1,7 +1,6 @@
 #include "voxelizer/fit.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -10,10 +9,6 @@ namespace xorvox {
 namespace {
 
 constexpr double kMargin = 2.0 / 64.0;
-
-bool is_finite(const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 }  // namespace
 

@@ -8,16 +8,6 @@
 namespace xorvox {
 namespace {
 
-bool is_finite(double value) {
-    return std::isfinite(value);
-}
-bool is_finite(const glm::dvec2& v) {
-    return is_finite(v.x) && is_finite(v.y);
-}
-bool is_finite(const glm::dvec3& v) {
-    return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
-}
-
 Status validate_regular(const Lattice& lattice) {
     if (!lattice.z0.empty() || !lattice.z.empty()) return Status::InvalidArgument;
     if (std::max({lattice.nx, lattice.ny, lattice.nz}) > kMaxLatticeSide) return Status::OutOfRange;
@@ -34,19 +24,28 @@ Status validate_table(const Lattice& lattice) {
     if (lattice.plan.size() != columns || lattice.z.size() != lattice.nz) return Status::InvalidArgument;
     if (!lattice.z0.empty() && lattice.z0.size() != columns) return Status::InvalidArgument;
 
-    const auto all_finite = [](const auto& values) {
-        return std::all_of(values.begin(), values.end(), [](const auto& value) { return is_finite(value); });
+    const auto all_finite = [](std::span<const double> values) {
+        return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
     };
-    if (!all_finite(lattice.plan) || !all_finite(lattice.z0) || !all_finite(lattice.z)) return Status::InvalidArgument;
+    const bool plan_finite = std::all_of(lattice.plan.begin(), lattice.plan.end(), [](const glm::dvec2& place) {
+        return is_finite({place, 0.0});
+    });
+    if (!plan_finite || !all_finite(lattice.z0) || !all_finite(lattice.z)) return Status::InvalidArgument;
     const auto not_increasing = [](double a, double b) { return a >= b; };
     if (std::adjacent_find(lattice.z.begin(), lattice.z.end(), not_increasing) != lattice.z.end()) {
         return Status::InvalidArgument;
     }
     const Box box = sample_bounds(lattice);
-    return is_finite(box.upper - box.lower) ? Status::Ok : Status::OutOfRange;
+    const glm::dvec3 size = box.upper - box.lower;
+    const bool keeps_heights = 0.5 * (lattice.z.back() - lattice.z.front()) <= size.z;
+    return is_finite(size) && keeps_heights ? Status::Ok : Status::OutOfRange;
 }
 
 }  // namespace
+
+bool is_finite(const glm::dvec3& point) {
+    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
 
 Box sample_bounds(const Lattice& lattice) {
     if (lattice.is_regular()) {

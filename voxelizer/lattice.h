@@ -54,6 +54,9 @@ constexpr glm::dvec3 sample_position(const Lattice& lattice, std::uint32_t x, st
     return {lattice.plan[column].x, lattice.plan[column].y, base + lattice.z[k]};
 }
 
+/// Whether no coordinate is infinite or not a number.
+bool is_finite(const glm::dvec3& point);
+
 /// A box along the axes.
 struct Box {
     glm::dvec3 lower{0.0};
@@ -64,7 +67,8 @@ struct Box {
 Box sample_bounds(const Lattice& lattice);
 
 /// Whether `lattice` can be voxelized on: no side of zero, sides and columns within the limits above, tables of the
-/// right length, everything finite, pitches positive, z increasing. Answers Ok, InvalidArgument or OutOfRange.
+/// right length, everything finite, pitches positive, z increasing, and not lost when z0 is added to it: the box of the
+/// samples, computed in double, is at least half as high as the table. Answers Ok, InvalidArgument or OutOfRange.
 Status validate(const Lattice& lattice);
 
 }  // namespace xorvox

@@ -31,6 +31,7 @@ PlanIndex::PlanIndex(const Lattice& lattice, const SnapGrid& grid, Scratch& scra
     from_lowest.origin = {0.0, 0.0, lattice.z.front()};
     for (std::size_t k = 0; k < rises_.size(); ++k) {
         glm::ivec3 snapped{0};
+        // At most 2^21 units, so that this cannot fail: a valid lattice's box is at least half as high as its table.
         (void)snap(from_lowest, {0.0, 0.0, lattice.z[k]}, snapped);
         rises_[k] = snapped.z;
     }

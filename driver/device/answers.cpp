@@ -23,7 +23,7 @@ bool Device::waiting() const {
 }
 
 std::uint32_t Device::events() const {
-    return kLinkReadable;
+    return waiting() ? kLinkWritable : kLinkReadable;
 }
 
 bool Device::send_answers(std::uint64_t now_ns) {

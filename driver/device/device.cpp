@@ -11,10 +11,6 @@ namespace {
 // So that poll() returns in bounded time, however fast the host sends.
 constexpr int kPacketsPerPoll = 32;
 
-bool newer(std::uint32_t sequence, std::uint32_t than) {
-    return static_cast<std::int32_t>(sequence - than) > 0;
-}
-
 }  // namespace
 
 Status Device::init(const DeviceConfig& config, std::uint64_t now_ns) {
@@ -81,7 +77,7 @@ void Device::take(std::span<const std::byte> packet, std::uint64_t now_ns) {
         if (decode(payload, request) == Status::Ok) on(header, request, now_ns);
         return;
     }
-    if (session_ == 0 || header.session != session_ || !newer(header.sequence, received_sequence_)) return;
+    if (session_ == 0 || header.session != session_ || !is_newer(header.sequence, received_sequence_)) return;
     received_sequence_ = header.sequence;
     heard_ns_ = now_ns;
 
@@ -124,7 +120,7 @@ void Device::take(std::span<const std::byte> packet, std::uint64_t now_ns) {
 // A repeat of the request that began the session must not end it. A host that was started anew and chose the same
 // session counts from 0 again, but its clock went on.
 bool Device::begins_session(const Header& header, const HelloRequest& request) const {
-    return header.session != session_ || newer(header.sequence, received_sequence_) ||
+    return header.session != session_ || is_newer(header.sequence, received_sequence_) ||
            request.host_time_ns > hello_host_time_ns_;
 }
 
@@ -139,6 +135,7 @@ void Device::on(const Header& header, const HelloRequest& request, std::uint64_t
     if (header.session != session_) sent_sequence_ = 0;
     end_session();
     session_ = header.session;
+    had_session_ = true;
     received_sequence_ = header.sequence;
     hello_host_time_ns_ = request.host_time_ns;
     heard_ns_ = now_ns;
@@ -233,8 +230,7 @@ bool Device::apply(const Control& control) {
 void Device::watch(std::uint64_t now_ns) {
     constexpr std::uint64_t kNsPerMs = 1'000'000;
     // Nobody is missed before somebody came.
-    const bool armed = session_ != 0 || frames_accepted_ > 0;
-    if (armed && watchdog_ms_ != 0 && silence_action_ == SilenceAction::Blank &&
+    if (had_session_ && watchdog_ms_ != 0 && silence_action_ == SilenceAction::Blank &&
         now_ns - heard_ns_ >= watchdog_ms_ * kNsPerMs) {
         raise_fault(Fault::SilentHost);
     }

@@ -125,6 +125,7 @@ private:
     std::span<std::byte> packet_;
 
     std::uint16_t session_ = 0;  ///< 0: none.
+    bool had_session_ = false;   ///< Since init().
     std::uint32_t received_sequence_ = 0;
     std::uint32_t sent_sequence_ = 0;
     std::uint64_t hello_host_time_ns_ = 0;

@@ -6,9 +6,8 @@
 //   stacked planes   `slices` copies of panel 0, one above the other, `plane_pitch_mm` apart, the stack's centre at the
 //                    origin. Plane 0 is the lowest. Columns run along +x, rows along +y. No motion.
 //
-//   rotating panel   `panel_count` panels that turn about the z axis. At phase 0 a panel with angle_deg = 0 stands in
-//   the
-//                    xz plane: columns run along +x, rows downwards (row 0 is the top one), its normal is -y.
+//   rotating panel   `panel_count` panels that turn about the z axis. At phase 0 a panel with angle_deg = 0 stands
+//                    in the xz plane: columns run along +x, rows downwards (row 0 is the top one), its normal is -y.
 //
 //                                 z, axis
 //                      row 0   ┌────┼────┐          From above, turning counter-clockwise by θ = phase + angle_deg:

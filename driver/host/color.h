@@ -22,7 +22,9 @@ public:
 /// What `--color` takes. The message for anything else lists what is allowed. COLOR is a name or #rrggbb (sRGB).
 ///
 ///   constant:COLOR          one colour
-///   gradient                azure, rose and gold, from bottom to top
+///   gradient                azure, turquoise, green and gold, from bottom to top, in steps that keep this order in
+///   every
+///                           pixel format
 ///   gradient:COLOR,COLOR    from bottom to top, mixed evenly to the eye (Oklab)
 ///   noise, noise:SCALE      Perlin's noise through a palette; SCALE cells along each side of the box, 0.1 … 256,
 ///   default 4

@@ -10,6 +10,9 @@
 
 namespace xorvox::host {
 
+/// Whether the value is in the range of the operation, and the operation is known.
+bool is_valid(const wire::Control& control);
+
 class ControlQueue {
 public:
     static constexpr std::size_t kMaxWaiting = 64;
@@ -18,30 +21,39 @@ public:
     bool full() const { return waiting_.size() >= kMaxWaiting; }
     bool has_next() const { return !waiting_.empty() && !in_flight_; }
 
-    void push(const wire::Control& control);
-    /// Queues a ClearFault unless one waits already.
-    void push_clear_fault();
+    void push(const wire::Control& control) { waiting_.push_back({.control = control}); }
+    /// Clears the fault of a silent host and no other: queues a ClearFault for that one, unless one waits already, and
+    /// takes it back when the device has another fault or none.
+    void heed(wire::Fault fault);
 
-    /// The control to be sent now; it stays until it is confirmed(), or refused(), or given up by watch().
+    /// The control to be sent now; it stays until it is confirmed, refused, taken back or given up by watch().
     const wire::Control& send(std::uint64_t now_ns);
     /// The control to be sent now, where nobody will answer.
     wire::Control take();
 
     void confirmed_by(const wire::DeviceStatus& status);
-    /// True when a control was in flight, which is given up.
+    /// The device refused a control. True when it can only be the one in flight, which is given up: a refusal names
+    /// none, and one that was sent several times may be refused as often.
     bool refused();
     /// Lets an unconfirmed control be sent again. True when it was given up instead, after `attempts`.
     bool watch(std::uint64_t now_ns, std::uint64_t timeout_ns, std::uint32_t attempts);
-    /// What was sent may be lost: it is sent again.
-    void begin_again() { in_flight_ = false; }
+    /// What was sent may be lost: it is sent again. No refusals from before come any more.
+    void begin_again();
 
 private:
+    struct Waiting {
+        wire::Control control;
+        bool automatic = false;  ///< Nobody asked for it.
+        std::uint32_t attempts = 0;
+    };
+
+    void let_clear_fault_pass();
     void pop();
 
-    std::deque<wire::Control> waiting_;
+    std::deque<Waiting> waiting_;
     bool in_flight_ = false;  ///< The first one.
-    std::uint32_t attempts_ = 0;
     std::uint64_t sent_ns_ = 0;
+    std::uint32_t late_refusals_ = 0;  ///< That may still come, of controls that do not wait any more.
 };
 
 }  // namespace xorvox::host

@@ -49,9 +49,13 @@ std::uint32_t visible_code(glm::vec3 linear, PixelFormat format) {
     const std::uint32_t code = quantize(linear, format);
     if (code != 0 || is_black(linear)) return code;
     const auto [red, green, blue] = channels(format);
-    const float strongest = std::max({linear.r, linear.g, linear.b});
-    const Channel& lit = linear.r == strongest ? red : linear.g == strongest ? green : blue;
-    return 1u << lit.shift;
+    // A NaN is dark here, too: it compares false.
+    float strongest = 0.0f;
+    for (int i = 0; i < 3; ++i) strongest = linear[i] > strongest ? linear[i] : strongest;
+    const auto lit = [&](float value, const Channel& channel) {
+        return value >= 0.5f * strongest ? 1u << channel.shift : 0u;
+    };
+    return lit(linear.r, red) | lit(linear.g, green) | lit(linear.b, blue);
 }
 
 void put_pixel(std::span<std::byte> row, std::uint32_t column, PixelFormat format, std::uint32_t code) {

@@ -15,8 +15,9 @@ namespace xorvox::host {
 /// Mono1 has no levels: it is lit unless the colour is black.
 std::uint32_t quantize(glm::vec3 linear, PixelFormat format);
 
-/// As quantize, but never 0 unless the colour is black: a colour that is too faint for the format becomes the faintest
-/// code of its strongest channel, so that no set voxel is lost. A channel that is not above zero counts as dark.
+/// As quantize, but never 0 unless the colour is black: of a colour that is too faint for the format, the strongest
+/// channel and those at least half as strong become their faintest codes, so that no set voxel is lost and grey stays
+/// grey. A channel that is not above zero counts as dark.
 std::uint32_t visible_code(glm::vec3 linear, PixelFormat format);
 
 /// Writes the pixel at `column` of `row`, whose bits are zero there. row.size() is at least row_bytes of the panel;

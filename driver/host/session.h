@@ -1,7 +1,7 @@
 // Session: the host's end of the wire protocol (driver/PROTOCOL.md) over any link.
 //
 //   Connecting ── hello ok ─► Ready ── silence ─► Connecting ── no answer ─► Failed
-//        └──── refused: other geometry, other major version       link closed, frame not taken, no answer ─► Failed
+//        └──── refused: other geometry, other major version       link closed, frame not taken or not shown ─► Failed
 //
 // One frame is on its way at a time:
 //
@@ -31,7 +31,9 @@ struct SessionOptions {
     std::uint16_t session = 1;  ///< Id; another one than a previous session's to the same device. 0 counts as 1.
     std::int64_t answer_timeout_ns =
         500'000'000;              ///< Without an answer for this long: ask, or send again, as a keyframe.
-    std::uint32_t attempts = 10;  ///< Of hello, and of one frame, before it is given up.
+    std::uint32_t attempts = 10;  ///< Of hello, of one frame and of one control, before it is given up.
+    std::int64_t present_timeout_ns =
+        10'000'000'000;  ///< A display that shows no new frame for this long although one is due has failed. 0: never.
 };
 
 enum class SessionState : std::uint8_t { Connecting, Ready, Failed };
@@ -59,9 +61,10 @@ public:
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
 
-    /// Moves everything that can move now. `now_ns` never goes back. Call it at least every 100 ms, also when there is
-    /// nothing to send: it keeps the device's watchdog quiet. Ok; WouldBlock when nothing moved (wait for events() on
-    /// the link, not for long); Closed or Refused once the session has Failed: error() says why.
+    /// Moves everything that can move now. `now_ns` never goes back. Call it at least every 100 ms, and every eighth of
+    /// device_status().watchdog_ms where that is shorter, also when there is nothing to send: it keeps the device's
+    /// watchdog quiet. It clears the fault of a silent host by itself, and no other. Ok; WouldBlock when nothing moved
+    /// (wait for events() on the link, not for long); Closed or Refused once the session has Failed: error() says why.
     Status poll(std::uint64_t now_ns);
 
     /// Takes a copy of a frame of frame_bytes(display) to be sent; `present_at_ns` is of the device's clock, 0: as soon
@@ -69,8 +72,9 @@ public:
     /// free page; InvalidArgument on another size; Closed when Failed.
     Status submit(std::span<const std::byte> frame, std::uint64_t present_at_ns = 0);
 
-    /// Queues one control message; it is sent again until a DeviceStatus confirms it. WouldBlock when many wait; Closed
-    /// when Failed.
+    /// Queues one control message; it is sent again until a DeviceStatus confirms it, a bounded number of times. A
+    /// Blank is confirmed only while the device has no fault. InvalidArgument when `value` is out of the operation's
+    /// range; WouldBlock when many wait; Closed when Failed.
     Status control(wire::ControlOperation operation, std::uint32_t value);
 
     SessionState state() const;
@@ -79,11 +83,13 @@ public:
     bool idle() const;
     /// LinkEvents that poll() is waiting for.
     std::uint32_t events() const;
-    const Error& error() const;                       ///< Valid when Failed.
-    const wire::Hello& device() const;                ///< Valid from Ready on.
-    const wire::DeviceStatus& device_status() const;  ///< The last one received.
-    std::uint32_t last_accepted() const;              ///< Frame id; 0: none.
-    std::uint32_t last_presented() const;             ///< Frame id; 0: none.
+    const Error& error() const;         ///< Valid when Failed.
+    const wire::Hello& device() const;  ///< Valid from Ready on; its fault is that of the beginning.
+    /// The last one received; before the first, only `fault` is valid, from Ready on: it is hello's. Fault::Scan stays
+    /// until somebody judges it and calls control(ClearFault, 0): tell your user.
+    const wire::DeviceStatus& device_status() const;
+    std::uint32_t last_accepted() const;   ///< Frame id; 0: none.
+    std::uint32_t last_presented() const;  ///< Frame id; 0: none.
     const SessionStatistics& statistics() const;
 
 private:

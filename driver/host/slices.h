@@ -23,10 +23,10 @@ public:
     const DisplayLattice& lattice() const { return lattice_; }
 
     /// Writes frame_bytes(display) to `frame`: every set voxel lit in its colour, every other pixel and all padding
-    /// dark. A set voxel whose colour is too faint for the pixel format is lit with the faintest code of its strongest
-    /// channel; only black is dark. `volume` has the shape of lattice(). `color` is asked only at set voxels, at points
-    /// 0 … 1 along the box of extent(display). Ok or InvalidArgument. Several threads may paint different frames at
-    /// once.
+    /// dark. A set voxel whose colour is too faint for the pixel format is lit with the faintest codes of its strong
+    /// channels (visible_code); only black is dark. `volume` has the shape of lattice(). `color` is asked only at set
+    /// voxels, at points 0 … 1 along the box of extent(display). Ok or InvalidArgument. Several threads may paint
+    /// different frames at once.
     Status paint(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame) const;
 
 private:

@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::size_t kMaxUnpresented = 16;  ///< More than a device has pages.
 
-bool later(std::uint32_t id, std::uint32_t than) {
-    return static_cast<std::int32_t>(id - than) > 0;
-}
-
 }  // namespace
 
 const char* Transfer::refusal_text() const {
@@ -24,7 +20,7 @@ const char* Transfer::refusal_text() const {
         case NackReason::Gap: return "packets were missing";
         case NackReason::BadChunk: return "a chunk did not decode";
         case NackReason::BadCrc: return "the page's checksum was wrong";
-        case NackReason::BadFrame: return "the frame was not of this display";
+        case NackReason::BadFrame:
         case NackReason::BadControl:
         case NackReason::BadVersion: break;
     }
@@ -34,6 +30,8 @@ const char* Transfer::refusal_text() const {
 void Transfer::begin_with(const EncoderLimits& limits) {
     encoder_ = FrameEncoder(limits);
     has_base_ = false;
+    // The device keeps the last one for its next boundary, or it forgot them all; its clock may be another one.
+    for (Unpresented& frame : unpresented_) frame.due_ns = 0;
 }
 
 void Transfer::submit(std::span<const std::byte> content, std::uint64_t present_at_ns) {
@@ -71,7 +69,7 @@ void Transfer::again(NackReason reason) {
 bool Transfer::is_an_attempt(std::uint32_t frame) const {
     if (phase_ == Phase::None || (phase_ == Phase::Queued && failed_attempts_ == 0)) return false;
     if (phase_ == Phase::Sending && frame == id_) return false;
-    return !later(first_id_, frame) && !later(frame, id_);
+    return !is_newer(first_id_, frame) && !is_newer(frame, id_);
 }
 
 bool Transfer::accept(const Acknowledge& message) {
@@ -82,17 +80,34 @@ bool Transfer::accept(const Acknowledge& message) {
     has_base_ = message.frame == id_;
     phase_ = Phase::None;
     ++statistics_->frames_accepted;
-    unpresented_.push_back(message.frame);
+    unpresented_.push_back({.first_id = first_id_,
+                            .last_id = id_,
+                            .accepted_id = message.frame,
+                            .page_crc = message.page_crc,
+                            .due_ns = std::max(present_at_ns_, message.device_time_ns)});
     if (unpresented_.size() > kMaxUnpresented) unpresented_.pop_front();
     return true;
 }
 
-void Transfer::presented(std::uint32_t frame) {
-    const auto found = std::find(unpresented_.begin(), unpresented_.end(), frame);
-    if (found == unpresented_.end()) return;
-    unpresented_.erase(unpresented_.begin(), found + 1);
+bool Transfer::presented(std::uint32_t frame, std::uint32_t page_crc) {
+    const auto found = std::find_if(unpresented_.begin(), unpresented_.end(), [&](const Unpresented& accepted) {
+        return accepted.page_crc == page_crc && !is_newer(accepted.first_id, frame) &&
+               !is_newer(frame, accepted.last_id);
+    });
+    if (found == unpresented_.end()) return false;
+    const Unpresented shown = *found;
+    std::erase_if(unpresented_, [&](const Unpresented& accepted) {
+        return accepted.due_ns < shown.due_ns ||
+               (accepted.due_ns == shown.due_ns && !is_newer(accepted.accepted_id, shown.accepted_id));
+    });
     ++statistics_->frames_presented;
-    last_presented_ = frame;
+    last_presented_ = shown.accepted_id;
+    return true;
+}
+
+bool Transfer::awaits_presentation_at(std::uint64_t device_time_ns) const {
+    return std::any_of(unpresented_.begin(), unpresented_.end(),
+                       [&](const Unpresented& accepted) { return accepted.due_ns <= device_time_ns; });
 }
 
 }  // namespace xorvox::host

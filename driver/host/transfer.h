@@ -47,12 +47,24 @@ public:
     bool accept(const wire::Acknowledge& message);
     /// True when it refuses the attempt that is running.
     bool is_refused_by(const wire::Nack& message) const { return began() && message.frame == id_; }
-    /// `frame` is being shown. Counted once for each accepted frame.
-    void presented(std::uint32_t frame);
-    /// Whether the frame accepted last is not known to be shown.
+    /// `frame`, whose page has this CRC, is being shown: an id alone may be of another session. True when that is news
+    /// of an accepted frame; those that were due before it will never be shown. Counted once for each accepted frame.
+    bool presented(std::uint32_t frame, std::uint32_t page_crc);
+    /// Whether an accepted frame is not known to be shown.
     bool awaits_presentation() const { return !unpresented_.empty(); }
+    /// Whether one of these is due at this time of the device's clock.
+    bool awaits_presentation_at(std::uint64_t device_time_ns) const;
 
 private:
+    /// A frame that was accepted, under one of its ids. The device may have accepted, and show, it under each of them.
+    struct Unpresented {
+        std::uint32_t first_id;
+        std::uint32_t last_id;
+        std::uint32_t accepted_id;
+        std::uint32_t page_crc;
+        std::uint64_t due_ns;  ///< Device clock.
+    };
+
     bool is_an_attempt(std::uint32_t frame) const;
 
     SessionStatistics* statistics_;
@@ -71,7 +83,7 @@ private:
     bool has_base_ = false;
     std::uint32_t last_accepted_ = 0;
     std::uint32_t last_presented_ = 0;
-    std::deque<std::uint32_t> unpresented_;  ///< Accepted frames.
+    std::deque<Unpresented> unpresented_;
 };
 
 }  // namespace xorvox::host

@@ -96,7 +96,8 @@ enum class ControlOperation : std::uint8_t {
 };
 enum class SilenceAction : std::uint8_t { Hold = 0, Blank = 1 };
 
-/// Host to device: one setting or question. Every operation is answered by a DeviceStatus.
+/// Host to device: one setting or question. The answer is a DeviceStatus, or a Nack BadControl when the device does not
+/// know the operation or the value is out of its range.
 struct Control {
     static constexpr PacketType kType = PacketType::Control;
     ControlOperation operation{};

@@ -50,7 +50,7 @@ struct Header {
 /// Whether number `a`, of a sequence or a frame, comes after `b`. Numbers wrap: it does if (a − b) mod 2³² is
 /// 1 … 2³¹ − 1. Of two that are 2³¹ apart, neither comes after the other.
 constexpr bool is_newer(std::uint32_t a, std::uint32_t b) {
-    return a - b - 1u < 0x7fffffffu;
+    return static_cast<std::int32_t>(a - b) > 0;
 }
 
 /// CRC-32C (Castagnoli, reflected, initial and final value ~0) of `bytes`, continuing from `crc`: crc32c(b, crc32c(a))

@@ -62,6 +62,7 @@ TEST_CASE("grids that cannot be are refused", "[cli]") {
     refused({"voxelize", mesh, "--size", "0", "-o", out}, {"--size", "0", "4096"});
     refused({"voxelize", mesh, "--size", "5000", "-o", out}, {"--size", "5000", "4096"});
     refused({"voxelize", mesh, "--size", "ten", "-o", out}, {"--size", "ten"});
+    refused({"voxelize", mesh, "--size", "", "-o", out}, {"--size", "not a whole number"});
     refused({"voxelize", mesh, "--size", "-4", "-o", out}, {"--size"});
     refused({"voxelize", mesh, "--grid", kGridOfTen, "-o", out}, {"--grid", "--origin", "--pitch"});
     refused({"voxelize", mesh, "--grid", "10,0,10", "--origin", "0,0,0", "--pitch", "1", "-o", out},
@@ -106,6 +107,9 @@ TEST_CASE("outputs that cannot be are refused", "[cli]") {
     refused({"show", mesh, "--display", "cube16-ws2812", "--png", folder.path("p.png"), "--to", "tcp:127.0.0.1:1"},
             {"--png", "loopback"});
     refused({"show", mesh, "--display", "cube16-ws2812", "--to", "file:" + folder.path("missing/f")}, {"missing"});
+    refused({"show", mesh, "--display", "cube16-ws2812", "--to", "file:" + mesh}, {"the mesh itself"});
+    refused({"show", mesh, "--display", "cube16-ws2812", "--png", folder.path("p.jpg")}, {"p.jpg", ".png"});
+    CHECK(read_file(mesh) == cube_obj(1.0));
     CHECK(folder.names() == std::vector<std::string>{"cube.obj"});
 }
 
@@ -128,12 +132,16 @@ TEST_CASE("unknown words on the command line are refused and point to the help",
     refused({"sim", "--display", "cube17", "--listen", "tcp:0"}, {"cube17"});
     refused({"sim"}, {"--listen"});
     refused({"sim", "--listen", "file:x"}, {"--listen", "tcp"});
+    refused({"--bogus"}, {"--bogus", "xorvox --help"});
+    refused({"show", mesh, "--display", "cube16-ws2812", "--view", "orthographic"}, {"--view", "--png"});
+    refused({"show", mesh, "--display", "cube16-ws2812", "--hold"}, {"--hold", "tcp"});
 }
 
 TEST_CASE("mistakes in a display file are explained by line", "[cli]") {
     const Folder folder;
     const std::string mesh = folder.file("cube.obj", cube_obj(1.0));
-    refused({"show", mesh, "--display", folder.file("syntax.toml", "name = \"x\"\nkind = \n")}, {"syntax.toml: line 2"});
+    refused({"show", mesh, "--display", folder.file("syntax.toml", "name = \"x\"\nkind = \n")},
+            {"syntax.toml: line 2"});
     refused(
         {"show", mesh, "--display", folder.file("key.toml", "name = \"x\"\nkind = \"stacked-planes\"\nslicez = 3\n")},
         {"key.toml: line 3", "slicez", "slices"});

@@ -71,6 +71,26 @@ TEST_CASE("a unit cube on an explicit grid sets exactly its voxels", "[cli]") {
     }
 }
 
+TEST_CASE("with --hold a display stays lit until the host is interrupted", "[cli]") {
+    Background display({"sim", "--display", "cube16-ws2812", "--listen", "tcp:0"});
+    const std::string listening = display.line().value_or("");
+    const std::string address = listening.substr(listening.rfind("tcp:"));
+    Background host({"show", kDuck, "--display", "cube16-ws2812", "--to", address, "--hold"});
+    CHECK_THAT(host.line().value_or(""), Catch::Contains(address) && Catch::Contains("Ctrl-C"));
+    CHECK(display.line() == "client connected");
+    CHECK_THAT(display.line().value_or(""), Catch::Contains("pixels lit"));
+    CHECK(host.terminate() == 0);
+    CHECK(display.line() == "client disconnected");
+    CHECK_THAT(display.line().value_or(""), Catch::Contains("dark"));
+    CHECK(display.terminate() == 0);
+}
+
+TEST_CASE("info writes JSON without infinities", "[cli]") {
+    const Folder folder;
+    const std::string out = succeeds({"info", folder.file("huge.obj", cube_obj(1e200)), "--json"}).out;
+    CHECK_THAT(out, Catch::Contains("\"volume\": null"));
+}
+
 TEST_CASE("a frame recorded to a file is the same every time", "[cli]") {
     const Folder folder;
     succeeds({"show", kDuck, "--display", "cube16-ws2812", "--to", "file:" + folder.path("a.bin")});

@@ -40,14 +40,15 @@ public:
         const sockaddr_in address = on_loopback(port);
         REQUIRE(connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
     }
-    /// Sends until everything is gone or the peer is.
-    void send_all(const std::string& bytes) {
+    /// Sends until everything is gone, or false: the peer is.
+    bool send_all(const std::string& bytes) {
         std::size_t at = 0;
         while (at < bytes.size()) {
             const ssize_t n = send(fd_, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL);
-            if (n <= 0) return;
+            if (n <= 0) return false;
             at += static_cast<std::size_t>(n);
         }
+        return true;
     }
     /// Reads until the peer closes.
     void drain() {
@@ -108,6 +109,30 @@ TEST_CASE("a display that answers garbage is given up in bounded time", "[cli]")
     const Outcome outcome = show_to(port);
     peer.join();
     is_one_line(outcome);
+}
+
+TEST_CASE("a display that sends garbage without a pause is given up in bounded time", "[cli]") {
+    Socket server;
+    const std::uint16_t port = server.listen_anywhere();
+    std::thread peer([&] {
+        Socket client(server.accept_one());
+        const std::string nonsense = garbage(100'000);
+        while (client.send_all(nonsense)) {
+        }
+    });
+    const Outcome outcome = show_to(port);
+    peer.join();
+    is_one_line(outcome);
+}
+
+TEST_CASE("a simulated display drops a client that says nothing", "[cli]") {
+    Background display({"sim", "--display", "cube16-ws2812", "--listen", "tcp:0"});
+    const std::string listening = display.line().value_or("");
+    Socket client;
+    client.connect_to(static_cast<std::uint16_t>(std::stoi(listening.substr(listening.rfind(':') + 1))));
+    CHECK(display.line() == "client connected");
+    CHECK(display.line() == "client disconnected");
+    CHECK(display.terminate() == 0);
 }
 
 TEST_CASE("a simulated display outlives clients that send garbage or vanish", "[cli]") {

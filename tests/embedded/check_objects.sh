@@ -4,7 +4,7 @@ shift
 undefined=$("$nm" -C -u "$@") || exit 1
 found=$(echo "$undefined" | grep -E ' U (malloc|calloc|realloc|free|operator (new|delete).*|__cxa_.*|std::__throw.*|std::terminate.*)$')
 if [ -n "$found" ]; then
-    echo "the voxelizer's core calls:"
+    echo "these freestanding parts call:"
     echo "$found"
     exit 1
 fi

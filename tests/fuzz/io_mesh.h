@@ -38,5 +38,6 @@ inline int check_parser(Parser parse, const std::uint8_t* data, std::size_t size
     const auto report = xorvox::io::report(mesh->view());
     require(report.faces == faces && report.duplicate_faces < faces && report.components <= faces &&
             report.components > 0);
+    require(!std::isnan(report.signed_volume));
     return 0;
 }

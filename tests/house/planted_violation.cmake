@@ -1,6 +1,7 @@
 # The include check must see red: plants one violation of each kind in a copy and expects the check to name it.
 foreach(case
     "sim/optics.cpp|#include \"driver/host/session.h\"|module sim may not include host"
+    "sim/optics.cpp|#include <driver/host/session.h>|module sim may not include host"
     "driver/device/device.cpp|#include \"voxelizer/mesh.h\"|module device may not include core"
     "driver/wire/packet.cpp|#include <vector>|module wire is firmware and may not include <vector>"
     "transport/tcp.cpp|#include \"driver/wire/packet.h\"|module transport may not include wire"

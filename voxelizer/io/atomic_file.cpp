@@ -10,61 +10,94 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "voxelizer/io/file_name.h"
+
 namespace xorvox::io {
 namespace {
 
-tl::unexpected<Error> system_failure(std::string_view path, std::string_view what, int number,
-                                     std::string_view advice) {
-    return fail(fmt::format("{}: {}: {}; {}", path, what, std::system_category().message(number), advice));
+tl::unexpected<Error> cannot_create(std::string_view shown, int number) {
+    return fail(fmt::format("{}: cannot be created: {}; its folder must exist and be writable", shown,
+                            std::system_category().message(number)));
 }
 
-// Where the bytes go: `path`, or what it links to.
-Expected<std::string> resolve(const std::string& path) {
+tl::unexpected<Error> cannot_write(std::string_view shown, int number) {
+    return fail(fmt::format("{}: cannot be written: {}; nothing was left behind", shown,
+                            std::system_category().message(number)));
+}
+
+// Where the bytes go: `path`, or what it links to. Messages call it `shown`.
+Expected<std::string> resolve(const std::string& path, const std::string& shown) {
     using std::filesystem::file_type;
-    std::error_code ignored;
-    const file_type type = std::filesystem::status(path, ignored).type();
-    if (type == file_type::directory) return fail(fmt::format("{}: is a directory; name a file in it", path));
-    if (type != file_type::regular && type != file_type::not_found && type != file_type::none) {
-        return fail(fmt::format("{}: is a device or a pipe, which cannot be replaced as a whole; name a file", path));
-    }
-    if (std::filesystem::symlink_status(path, ignored).type() != file_type::symlink) return path;
+    if (path.empty()) return fail("the name of the file to write is empty; name a file");
     std::error_code error;
+    const file_type type = std::filesystem::status(path, error).type();
+    if (type == file_type::none) return cannot_create(shown, error.value());
+    if (type == file_type::directory) return fail(fmt::format("{}: is a directory; name a file in it", shown));
+    if (type != file_type::regular && type != file_type::not_found) {
+        return fail(fmt::format("{}: is a device or a pipe, which cannot be replaced as a whole; name a file", shown));
+    }
+    if (std::filesystem::symlink_status(path, error).type() != file_type::symlink) return path;
     std::string target = std::filesystem::canonical(path, error).string();
-    if (error) return fail(fmt::format("{}: is a link to nothing; remove it or choose another name", path));
+    if (error) return fail(fmt::format("{}: is a link to nothing; remove it or choose another name", shown));
     return target;
+}
+
+// A name beside `target` for the `attempt`th try to find one that is free.
+std::string temporary_name(const std::string& target, unsigned attempt) {
+    const auto folder = std::filesystem::path(target).parent_path();
+    return (folder / fmt::format(".xorvox-{}-{}.tmp", ::getpid(), attempt)).string();
+}
+
+// By this name linkat() finds an open file that has none.
+std::string name_of_descriptor(int descriptor) {
+    return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+bool link_to(int descriptor, const std::string& name) {
+    return ::linkat(AT_FDCWD, name_of_descriptor(descriptor).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
+// A new file without a name in the folder of `target`, or -1 where that cannot be or could not be named later.
+int open_unnamed(const std::string& target) {
+    const std::string folder = std::filesystem::path(target).parent_path().string();
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0 || ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) return descriptor;
+    ::close(descriptor);
+    return -1;
 }
 
 }  // namespace
 
 Expected<AtomicFile> AtomicFile::create(const std::string& path) {
-    auto target = resolve(path);
+    std::string shown = printable_name(path);
+    auto target = resolve(path, shown);
     if (!target) return tl::unexpected(std::move(target.error()));
-    const auto folder = std::filesystem::path(*target).parent_path();
+    if (const int descriptor = open_unnamed(*target); descriptor >= 0) {
+        return AtomicFile(std::move(shown), std::move(*target), {}, descriptor);
+    }
     for (unsigned attempt = 0;; ++attempt) {
-        std::string temporary = (folder / fmt::format(".xorvox-{}-{}.tmp", ::getpid(), attempt)).string();
-        const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0) return AtomicFile(path, std::move(*target), std::move(temporary), descriptor);
-        if (errno != EEXIST) {
-            return system_failure(path, "cannot be created", errno, "its folder must exist and be writable");
-        }
+        std::string name = temporary_name(*target, attempt);
+        const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) return AtomicFile(std::move(shown), std::move(*target), std::move(name), descriptor);
+        if (errno != EEXIST) return cannot_create(shown, errno);
     }
 }
 
-AtomicFile::AtomicFile(std::string path, std::string target, std::string temporary, int descriptor)
-    : path_(std::move(path)), target_(std::move(target)), temporary_(std::move(temporary)), descriptor_(descriptor) {}
+AtomicFile::AtomicFile(std::string shown, std::string target, std::string name, int descriptor)
+    : shown_(std::move(shown)), target_(std::move(target)), name_(std::move(name)), descriptor_(descriptor) {}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : path_(std::move(other.path_)),
+    : shown_(std::move(other.shown_)),
       target_(std::move(other.target_)),
-      temporary_(std::exchange(other.temporary_, {})),
+      name_(std::exchange(other.name_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
     if (this != &other) {
         discard();
-        path_ = std::move(other.path_);
+        shown_ = std::move(other.shown_);
         target_ = std::move(other.target_);
-        temporary_ = std::exchange(other.temporary_, {});
+        name_ = std::exchange(other.name_, {});
         descriptor_ = std::exchange(other.descriptor_, -1);
     }
     return *this;
@@ -76,28 +109,38 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::discard() noexcept {
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
-    temporary_.clear();
+    if (!name_.empty()) ::unlink(name_.c_str());
+    name_.clear();
 }
 
 Expected<void> AtomicFile::write(std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return system_failure(path_, "cannot be written", errno, "nothing was left behind");
+        if (written < 0) return cannot_write(shown_, errno);
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
     return {};
 }
 
+// Gives the unnamed file the name of its target, or a temporary one when that is taken: linkat() replaces nothing.
+Expected<void> AtomicFile::take_name() {
+    std::string name = target_;
+    for (unsigned attempt = 0; !link_to(descriptor_, name); ++attempt) {
+        if (errno != EEXIST) return cannot_create(shown_, errno);
+        name = temporary_name(target_, attempt);
+    }
+    name_ = std::move(name);
+    return {};
+}
+
 Expected<void> AtomicFile::commit() {
-    if (::close(std::exchange(descriptor_, -1)) != 0) {
-        return system_failure(path_, "cannot be written", errno, "nothing was left behind");
+    if (name_.empty()) {
+        if (auto ok = take_name(); !ok) return ok;
     }
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-        return system_failure(path_, "cannot be created", errno, "nothing was left behind");
-    }
-    temporary_.clear();
+    if (::close(std::exchange(descriptor_, -1)) != 0) return cannot_write(shown_, errno);
+    if (name_ != target_ && ::rename(name_.c_str(), target_.c_str()) != 0) return cannot_create(shown_, errno);
+    name_.clear();
     return {};
 }
 

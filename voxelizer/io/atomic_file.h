@@ -9,14 +9,20 @@
 
 namespace xorvox::io {
 
-/// Writes to a temporary file in the folder of the final one (.xorvox-PID-N.tmp) and renames it over the final name on
-/// commit(). Destroyed without a successful commit(), it removes what it wrote: a failure leaves nothing behind and an
-/// older file of the same name as it was. (A process that is killed leaves the temporary file.) Error messages begin
-/// with the final path. One thread at a time; different objects, even for one path, may be used by different threads.
+/// Writes to a file without a name in the folder of the final one and gives it its name on commit(). Without a
+/// successful commit() nothing is left behind and an older file of the same name is as it was, even when the process is
+/// killed: the system frees what has no name.
+///
+/// Two things need a temporary name in the same folder, .xorvox-PID-N.tmp, which a process that is killed just then
+/// leaves behind: replacing an older file, which only a rename does at once (the name is there for that moment of
+/// commit()); and file systems without unnamed files (O_TMPFILE), such as NFS and FAT (from create() to commit()).
+///
+/// Error messages begin with the final path, as printable_name(). One thread at a time; different objects, even for one
+/// path, may be used by different threads.
 class AtomicFile {
 public:
-    /// Creates the temporary file. `path` must name a regular file or nothing yet, in a folder that exists and can be
-    /// written to; a symbolic link is followed. Directories, devices and pipes, so also /dev/stdout, are refused.
+    /// Begins a file. `path` must name a regular file or nothing yet, in a folder that exists and can be written to; a
+    /// symbolic link is followed. Directories, devices and pipes, so also /dev/stdout, are refused.
     static Expected<AtomicFile> create(const std::string& path);
 
     AtomicFile(AtomicFile&& other) noexcept;
@@ -25,16 +31,17 @@ public:
 
     /// Appends `bytes`. After an error, destroy the object.
     Expected<void> write(std::string_view bytes);
-    /// Closes the file and gives it its name. Call once, last.
+    /// Gives the file its name and closes it. Call once, last.
     Expected<void> commit();
 
 private:
-    AtomicFile(std::string path, std::string target, std::string temporary, int descriptor);
+    AtomicFile(std::string shown, std::string target, std::string name, int descriptor);
+    Expected<void> take_name();
     void discard() noexcept;
 
-    std::string path_;       // As the caller wrote it: for messages.
-    std::string target_;     // The same with links followed.
-    std::string temporary_;  // Empty when there is nothing to remove.
+    std::string shown_;   // The path as messages have it.
+    std::string target_;  // The path with links followed.
+    std::string name_;    // That the file has for now; empty when there is none to remove.
     int descriptor_ = -1;
 };
 

@@ -1,4 +1,4 @@
-// The extension that a file's format is chosen by. Private to voxelizer/io.
+// Names of files: their extension, and how they stand in a message.
 #pragma once
 
 #include <string>
@@ -7,14 +7,10 @@
 namespace xorvox::io {
 
 /// From the last dot of the last part of `path`, in lower case: ".ply". Empty when there is no dot.
-inline std::string extension_of(std::string_view path) {
-    const std::size_t dot = path.find_last_of("./");
-    if (dot == std::string_view::npos || path[dot] == '/') return {};
-    std::string extension(path.substr(dot));
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-    }
-    return extension;
-}
+std::string extension_of(std::string_view path);
+
+/// `name` for a message of one line: control characters (below space, delete, and U+0080 to U+009F in UTF-8) as \xNN,
+/// everything else as it is. All errors of voxelizer/io that begin with a path begin with this.
+std::string printable_name(std::string_view name);
 
 }  // namespace xorvox::io

@@ -42,18 +42,19 @@ private:
     int number_;
 };
 
-Expected<std::string> read_file(const std::string& path) {
+// Messages call the file `name`.
+Expected<std::string> read_file(const std::string& path, const std::string& name) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat info {};
     if (file.number() < 0 || ::fstat(file.number(), &info) != 0) {
-        return fail(fmt::format("{}: cannot be read: {}; check the name and the permissions", path, last_error()));
+        return fail(fmt::format("{}: cannot be read: {}; check the name and the permissions", name, last_error()));
     }
-    if (S_ISDIR(info.st_mode)) return fail(fmt::format("{}: is a directory; name a mesh file in it", path));
+    if (S_ISDIR(info.st_mode)) return fail(fmt::format("{}: is a directory; name a mesh file in it", name));
     if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode)) {
-        return fail(fmt::format("{}: is neither a file nor a pipe; name a mesh file", path));
+        return fail(fmt::format("{}: is neither a file nor a pipe; name a mesh file", name));
     }
     const auto announced = static_cast<std::uint64_t>(info.st_size);
-    if (announced > kMaxMeshFileBytes) return too_long(path);
+    if (announced > kMaxMeshFileBytes) return too_long(name);
 
     // One byte more than announced, so that the end of a regular file is seen without growing.
     constexpr std::size_t kPipeBytes = std::size_t{1} << 16;
@@ -62,26 +63,26 @@ Expected<std::string> read_file(const std::string& path) {
     for (;;) {
         const ssize_t got = ::read(file.number(), bytes.data() + size, bytes.size() - size);
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return fail(fmt::format("{}: byte {}: cannot be read: {}", path, size, last_error()));
+        if (got < 0) return fail(fmt::format("{}: byte {}: cannot be read: {}", name, size, last_error()));
         if (got == 0) break;
         size += static_cast<std::size_t>(got);
-        if (size > kMaxMeshFileBytes) return too_long(path);
+        if (size > kMaxMeshFileBytes) return too_long(name);
         if (size == bytes.size()) bytes.resize(2 * size);
     }
     bytes.resize(size);
     return bytes;
 }
 
-Expected<Mesh> parse_any(std::string_view bytes, const std::string& path) {
-    if (begins_like_ply(bytes)) return parse_ply(bytes, path);
-    if (has_size_of_binary_stl(bytes)) return parse_stl(bytes, path);
-    const std::string ending = extension_of(path);
-    if (ending == ".ply") return parse_ply(bytes, path);
-    if (ending == ".stl") return parse_stl(bytes, path);
-    if (ending == ".obj") return parse_obj(bytes, path);
-    if (begins_like_text_stl(bytes)) return parse_stl(bytes, path);
+Expected<Mesh> parse_any(std::string_view bytes, const std::string& name) {
+    if (begins_like_ply(bytes)) return parse_ply(bytes, name);
+    if (has_size_of_binary_stl(bytes)) return parse_stl(bytes, name);
+    const std::string ending = extension_of(name);
+    if (ending == ".ply") return parse_ply(bytes, name);
+    if (ending == ".stl") return parse_stl(bytes, name);
+    if (ending == ".obj") return parse_obj(bytes, name);
+    if (begins_like_text_stl(bytes)) return parse_stl(bytes, name);
     return fail(fmt::format(
-        "{}: neither its content nor its extension {} is of a known format; xorvox reads .ply, .stl and .obj", path,
+        "{}: neither its content nor its extension {} is of a known format; xorvox reads .ply, .stl and .obj", name,
         quoted(ending)));
 }
 
@@ -125,20 +126,21 @@ Expected<UpAxis> up_axis(std::string_view name) {
 }
 
 Expected<Mesh> read_mesh(const std::string& path, const MeshReadOptions& options) {
+    const std::string name = printable_name(path);
     if (!std::isfinite(options.scale) || options.scale <= 0) {
-        return fail(fmt::format("{}: cannot be scaled by {}; use a finite positive number", path, options.scale));
+        return fail(fmt::format("{}: cannot be scaled by {}; use a finite positive number", name, options.scale));
     }
     try {
-        const auto bytes = read_file(path);
+        const auto bytes = read_file(path, name);
         if (!bytes) return tl::unexpected(bytes.error());
-        if (auto ok = check_size(*bytes, path); !ok) return tl::unexpected(std::move(ok.error()));
-        auto mesh = parse_any(*bytes, path);
+        if (auto ok = check_size(*bytes, name); !ok) return tl::unexpected(std::move(ok.error()));
+        auto mesh = parse_any(*bytes, name);
         if (!mesh) return mesh;
-        if (auto ok = place(*mesh, options, path); !ok) return tl::unexpected(std::move(ok.error()));
+        if (auto ok = place(*mesh, options, name); !ok) return tl::unexpected(std::move(ok.error()));
         weld(*mesh);
         return mesh;
     } catch (const std::bad_alloc&) {
-        return fail(fmt::format("{}: not enough memory to read it; split or simplify the mesh", path));
+        return fail(fmt::format("{}: not enough memory to read it; split or simplify the mesh", name));
     }
 }
 

@@ -45,8 +45,9 @@ Expected<UpAxis> up_axis(std::string_view name);
 /// Reads the mesh file at `path`, scales and turns it, and welds it (voxelizer/io/weld.h). A regular file or a pipe,
 /// read once from its beginning to its end. What decides the format: the first line of a PLY, the size of a binary STL
 /// (84 + 50 × its count of triangles, whatever its header says), then the extension .ply, .stl or .obj, then the word
-/// "solid" of a text STL. Errors as at the head of this file, and: `path` missing, unreadable, a directory or a device;
-/// a format that is none of the three; options out of range; a coordinate beyond a double after scaling; out of memory.
+/// "solid" of a text STL. Errors as at the head of this file, with the path as printable_name() has it
+/// (voxelizer/io/file_name.h), and: `path` missing, unreadable, a directory or a device; a format that is none of the
+/// three; options out of range; a coordinate beyond a double after scaling; out of memory.
 Expected<Mesh> read_mesh(const std::string& path, const MeshReadOptions& options = {});
 
 /// The parsers that read_mesh() uses, on bytes in memory. `source` is the name that errors begin with. The mesh is as

@@ -1,6 +1,7 @@
 #include "voxelizer/io/mesh_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -35,20 +36,31 @@ struct SideTable {
     std::vector<Side> sides;
 };
 
+// Whether `ring` only goes there and back between two vertices, or stays at one.
+bool is_collapsed(Ring ring) {
+    if (ring.empty()) return true;
+    const auto second = std::find_if(ring.begin(), ring.end(), [&](std::uint32_t v) { return v != ring[0]; });
+    return std::none_of(second, ring.end(), [&](std::uint32_t v) { return v != ring[0] && v != *second; });
+}
+
+// Calls visit(from, to) for every side that bounds a face.
+template <class Visit>
+void for_each_side(const MeshView& mesh, Visit visit) {
+    for (std::size_t r = 0; r < mesh.ring_count(); ++r) {
+        if (!is_collapsed(mesh.ring(r))) for_each_side(mesh.ring(r), visit);
+    }
+}
+
 SideTable collect_sides(const MeshView& mesh) {
     SideTable table;
     table.start.resize(mesh.positions.size() + 2);
-    for (std::size_t r = 0; r < mesh.ring_count(); ++r) {
-        for_each_side(mesh.ring(r), [&](std::uint32_t a, std::uint32_t b) { ++table.start[std::min(a, b) + 2]; });
-    }
+    for_each_side(mesh, [&](std::uint32_t a, std::uint32_t b) { ++table.start[std::min(a, b) + 2]; });
     // start[v + 1] is where v's sides begin until they are filed, then where they end.
     std::partial_sum(table.start.begin(), table.start.end(), table.start.begin());
     table.sides.resize(table.start.back());
-    for (std::size_t r = 0; r < mesh.ring_count(); ++r) {
-        for_each_side(mesh.ring(r), [&](std::uint32_t a, std::uint32_t b) {
-            table.sides[table.start[std::min(a, b) + 1]++] = {std::max(a, b), a < b};
-        });
-    }
+    for_each_side(mesh, [&](std::uint32_t a, std::uint32_t b) {
+        table.sides[table.start[std::min(a, b) + 1]++] = {std::max(a, b), a < b};
+    });
     return table;
 }
 
@@ -137,6 +149,26 @@ std::size_t count_components(const MeshView& mesh) {
     return components;
 }
 
+// Powers of two, one an axis, that bring a box to a size of which cubes do not overflow. Products with them are exact,
+// so volumes are the same to the last bit as without.
+struct Scale {
+    glm::dvec3 factor{1.0};
+    int exponent = 0;  // Of what undoes the three factors.
+};
+
+Scale scale_of(const glm::dvec3& min, const glm::dvec3& max) {
+    constexpr int kMost = 1000;  // 2 to this and to minus this are doubles; what remains of larger ones does no harm.
+    Scale scale;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double extent = max[axis] - min[axis];  // May be infinite, which ilogb takes for very large.
+        if (extent <= 0) continue;
+        const int exponent = std::clamp(std::ilogb(extent), -kMost, kMost);
+        scale.factor[axis] = std::ldexp(1.0, -exponent);
+        scale.exponent += exponent;
+    }
+    return scale;
+}
+
 void measure(const MeshView& mesh, MeshReport& report) {
     const auto used = mesh.used_indices();
     if (used.empty()) return;
@@ -145,15 +177,17 @@ void measure(const MeshView& mesh, MeshReport& report) {
         report.min = glm::min(report.min, mesh.positions[v]);
         report.max = glm::max(report.max, mesh.positions[v]);
     }
-    const glm::dvec3 centre = 0.5 * report.min + 0.5 * report.max;
+    const Scale scale = scale_of(report.min, report.max);
+    const auto scaled = [&](std::uint32_t v) { return mesh.positions[v] * scale.factor; };
+    const glm::dvec3 centre = 0.5 * (report.min * scale.factor) + 0.5 * (report.max * scale.factor);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         bool has_area = false;
         for (std::size_t r = mesh.face_begin(f); r < mesh.face_end(f); ++r) {
             const Ring ring = mesh.ring(r);
             if (ring.size() < 3) continue;
-            const glm::dvec3 a = mesh.positions[ring[0]];
+            const glm::dvec3 a = scaled(ring[0]);
             for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-                const glm::dvec3 normal = glm::cross(mesh.positions[ring[i]] - a, mesh.positions[ring[i + 1]] - a);
+                const glm::dvec3 normal = glm::cross(scaled(ring[i]) - a, scaled(ring[i + 1]) - a);
                 has_area = has_area || normal != glm::dvec3(0.0);
                 report.signed_volume += glm::dot(a - centre, normal) / 6.0;
             }
@@ -161,6 +195,7 @@ void measure(const MeshView& mesh, MeshReport& report) {
         }
         report.degenerate_faces += has_area ? 0u : 1u;
     }
+    report.signed_volume = std::ldexp(report.signed_volume, scale.exponent);
 }
 
 }  // namespace

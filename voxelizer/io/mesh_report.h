@@ -4,7 +4,9 @@
 //
 //   side        a step along a ring, from a corner to the next one, the last back to the first. Sides from a vertex to
 //               itself are left out.
-//   edge        a pair of different vertices that at least one side joins, whichever way it runs.
+//   edge        a pair of different vertices that at least one side joins, whichever way it runs. Rings of fewer than
+//               three different corners are left out: they go over their edge as often back as there, which for parity
+//               is nothing.
 //   open edge   an edge with an odd number of sides. Without open edges the mesh is closed mod 2, which is all that
 //               parity needs: every line then crosses the surface an even number of times.
 #pragma once
@@ -39,7 +41,7 @@ struct MeshReport {
     std::size_t inconsistent_edges =
         0;  ///< Edges that are not open, along which more sides run one way than the other.
     /// Faces of zero area: every triangle of the fan from the first corner of each ring has a normal of exactly zero,
-    /// computed in doubles.
+    /// computed in doubles that neither size nor place of the mesh makes overflow.
     std::size_t degenerate_faces = 0;
     /// Faces with the same sides as an earlier face, wherever their rings start and whichever way they run. For parity,
     /// two such faces cancel.
@@ -48,14 +50,15 @@ struct MeshReport {
 
     /// Sum of the signed volumes of the tetrahedra from the centre of the box to the triangles of all fans, in cubed
     /// units of the mesh. The volume enclosed if the orientation is outward; depends on the centre if there are open
-    /// edges.
+    /// edges. Finite whenever a double can hold it; else infinite with the right sign (from a side of about 1e102 on),
+    /// or 0 when it is too small (below about 1e-107). Never nan.
     double signed_volume = 0;
     bool closed_mod2 = false;  ///< No open edges.
     Orientation orientation = Orientation::Undefined;
 };
 
-/// Examines `mesh`, which must pass validate() and have fewer than 2^32 - 1 vertices. Time about linear. Allocates;
-/// throws std::bad_alloc.
+/// Examines `mesh`, which must pass validate(), be of finite coordinates and have fewer than 2^32 - 1 vertices. Time
+/// about linear. Allocates; throws std::bad_alloc.
 MeshReport report(const MeshView& mesh);
 
 }  // namespace xorvox::io

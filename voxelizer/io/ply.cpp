@@ -1,4 +1,5 @@
 // PLY 1.0 (Greg Turk): the header says which elements follow and of what their entries consist; then come the entries.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -19,9 +20,9 @@ namespace {
 constexpr const char* kTooFew = "the line has too few values";
 constexpr const char* kCutShort = "the file ends here; it was cut short";
 
-// Values that each list must have, besides its length.
-constexpr std::size_t least_items(const PlyProperty& property) {
-    return property.role == PlyRole::Corners ? 3 : 0;
+// Values of a list, besides its length, in an entry as short as can be when faces have `corners` corners.
+constexpr std::size_t least_items(const PlyProperty& property, std::size_t corners) {
+    return property.role == PlyRole::Corners ? corners : 0;
 }
 
 // TextValues and BinaryValues: the values of the entries, one after the other. What fails returns false and says why in
@@ -32,13 +33,12 @@ public:
     TextValues(std::string_view bytes, const PlyHeader& header)
         : scanner_(bytes.substr(header.data_offset), TextScanner::Dialect::Plain, header.data_line) {}
 
-    /// Whether all entries of `element` can be in what is left: a digit and a separator for each value.
-    bool has_room_for(const PlyElement& element) const {
+    /// The most entries of `element`, with so many corners a face, that can be in what is left: a digit and a separator
+    /// for each value.
+    std::size_t room_for(const PlyElement& element, std::size_t corners) const {
         std::size_t least = 0;
-        for (const PlyProperty& property : element.properties) {
-            least += 2 * (1 + least_items(property));
-        }
-        return element.count <= (scanner_.bytes_left() + 1) / least;
+        for (const PlyProperty& property : element.properties) least += 2 * (1 + least_items(property, corners));
+        return (scanner_.bytes_left() + 1) / least;
     }
     bool begin_entry() { return scanner_.next_line() || failed(kCutShort); }
     bool number(PlyType, double& value) { return read(value); }
@@ -86,14 +86,15 @@ public:
           next_(header.data_offset),
           order_(header.encoding == PlyEncoding::BinaryBigEndian ? std::endian::big : std::endian::little) {}
 
-    bool has_room_for(const PlyElement& element) {
+    std::size_t room_for(const PlyElement& element, std::size_t corners) {
         place_ = next_;
         std::size_t least = 0;
         for (const PlyProperty& property : element.properties) {
-            least += property.is_list ? size_of(property.count_type) + least_items(property) * size_of(property.type)
-                                      : size_of(property.type);
+            least += property.is_list
+                         ? size_of(property.count_type) + least_items(property, corners) * size_of(property.type)
+                         : size_of(property.type);
         }
-        return element.count <= left() / least;
+        return left() / least;
     }
     bool begin_entry() { return true; }
     bool number(PlyType type, double& value) {
@@ -178,16 +179,19 @@ private:
     bool parse_element(const PlyElement& element) {
         entry_ = 0;
         if (element.properties.empty()) return true;
-        if (!values_.has_room_for(element)) {
+        // Faces of no corners, so that one of too few is named as such when it is read.
+        if (element.count > values_.room_for(element, 0)) {
             error_ = fmt::format(
                 "{}: {}: {} entries of element {} announced, but the file is too short for them; it was cut short or "
-                "its "
-                "header is wrong",
+                "its header is wrong",
                 source_, values_.where(), element.count, quoted(element.name));
             return false;
         }
         if (element.name == "vertex") builder_.reserve_vertices(static_cast<std::size_t>(element.count));
-        if (element.name == "face") builder_.reserve_triangles(static_cast<std::size_t>(element.count));
+        if (element.name == "face") {
+            builder_.reserve_triangles(
+                static_cast<std::size_t>(std::min<std::uint64_t>(element.count, values_.room_for(element, 3))));
+        }
         for (; entry_ < element.count; ++entry_) {
             if (!parse_entry(element)) return failed(element);
         }

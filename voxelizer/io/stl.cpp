@@ -76,7 +76,7 @@ private:
                 scanner_.skip_line();
                 return true;
             }
-            if (!same_keyword(word, "facet")) return unexpected(word, "facet' or 'endsolid");
+            if (!same_keyword(word, "facet")) return unexpected(word, "'facet' or 'endsolid'");
             if (!parse_facet()) return false;
         }
     }

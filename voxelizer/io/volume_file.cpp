@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -157,29 +159,34 @@ Expected<void> write_bits(AtomicFile& file, ConstBitVolumeView volume, const Lat
 enum class Format : std::uint8_t { Nrrd, Binvox, Bits };
 
 Expected<Format> format_of(const std::string& path) {
+    const std::string name = printable_name(path);
     const std::string extension = extension_of(path);
+    if (!extension.empty() && std::filesystem::path(path).filename().string().size() == extension.size()) {
+        return fail(fmt::format("{}: has no name before its extension; name a file, such as volume.nrrd", name));
+    }
     if (extension == ".nrrd") return Format::Nrrd;
     if (extension == ".binvox") return Format::Binvox;
     if (extension == ".bits") return Format::Bits;
-    return fail(fmt::format("{}: the extension '{}' is of no known volume format; use .nrrd, .binvox or .bits", path,
-                            extension));
+    return fail(fmt::format("{}: the extension '{}' is of no known volume format; use .nrrd, .binvox or .bits", name,
+                            printable_name(extension)));
 }
 
 Expected<void> check(const std::string& path, Format format, ConstBitVolumeView volume, const Lattice& lattice) {
+    const std::string name = printable_name(path);
     if (!lattice.is_regular()) {
-        return fail(fmt::format("{}: volumes on a table of sample points cannot be written; use a regular grid", path));
+        return fail(fmt::format("{}: volumes on a table of sample points cannot be written; use a regular grid", name));
     }
     if (const Status status = validate(lattice); status != Status::Ok) {
-        return fail(fmt::format("{}: the lattice is not valid ({})", path, to_string(status)));
+        return fail(fmt::format("{}: the lattice is not valid ({})", name, to_string(status)));
     }
     if (volume.nx != lattice.nx || volume.ny != lattice.ny || volume.nz != lattice.nz ||
         volume.words.size() != volume_words(volume.nx, volume.ny, volume.nz)) {
-        return fail(fmt::format("{}: a volume of {}×{}×{} is not on a lattice of {}×{}×{}", path, volume.nx, volume.ny,
+        return fail(fmt::format("{}: a volume of {}×{}×{} is not on a lattice of {}×{}×{}", name, volume.nx, volume.ny,
                                 volume.nz, lattice.nx, lattice.ny, lattice.nz));
     }
     const glm::dvec3 pitch = lattice.pitch;
     if (format == Format::Binvox && (pitch.x != pitch.y || pitch.x != pitch.z)) {
-        return fail(fmt::format("{}: binvox has one pitch for all axes, not {}, {} and {}; write .nrrd or .bits", path,
+        return fail(fmt::format("{}: binvox has one pitch for all axes, not {}, {} and {}; write .nrrd or .bits", name,
                                 pitch.x, pitch.y, pitch.z));
     }
     return {};

@@ -30,14 +30,14 @@
 
 namespace xorvox::io {
 
-/// Whether write_volume() knows the extension of `path` (.nrrd, .binvox or .bits, in either case); an error that lists
-/// them if not. Lets a program refuse before it computes.
+/// Whether write_volume() knows the extension of `path` (.nrrd, .binvox or .bits, in either case) and the file has a
+/// name before it; an error that says so if not. Lets a program refuse before it computes.
 Expected<void> check_volume_path(const std::string& path);
 
 /// Writes `volume` to `path` in the format of its extension, whole or not at all (voxelizer/io/atomic_file.h says what
 /// paths may be written to). `lattice` must be regular, pass validate() and have the shape of `volume`. Errors: these
-/// broken, an unknown extension, a lattice that .binvox cannot tell, everything the file system says. Different files
-/// may be written by different threads.
+/// broken, an extension that check_volume_path() refuses, a lattice that .binvox cannot tell, everything the file
+/// system says. Different files may be written by different threads.
 Expected<void> write_volume(const std::string& path, ConstBitVolumeView volume, const Lattice& lattice);
 
 }  // namespace xorvox::io

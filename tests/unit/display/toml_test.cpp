@@ -103,7 +103,8 @@ TEST_CASE("what is not TOML is refused with its line") {
     CHECK_THAT(message("name = \"x\"\nkind == 3\n"), Contains("x.toml: line 2: not valid TOML"));
     CHECK_THAT(message("name = \"x\"\nname = \"y\"\n"), Contains("x.toml: line 2: not valid TOML"));
     CHECK_THAT(message("name = \"\xff\""), Contains("not valid TOML"));
-    CHECK_THAT(message("[\033panel]"), Contains("x.toml: line 1: not valid TOML"));  // toml++ 3.3 has an assertion here.
+    CHECK_THAT(message("[\033panel]"),
+               Contains("x.toml: line 1: not valid TOML"));  // toml++ 3.3 has an assertion here.
 }
 
 TEST_CASE("letters beyond ASCII are allowed in texts and comments, and only there") {
@@ -117,7 +118,8 @@ TEST_CASE("letters beyond ASCII are allowed in texts and comments, and only ther
     for (const char* text :
          {"a = 1\n\nä = 2", "a = 1\n\nb = ﮮ", "a = 1\n\n\"b\" ä", "a = 1\n\n[ä]", "a = \"\n\nä", "a = 1 # ä\n\n'b'ä"}) {
         INFO(text);
-        CHECK_THAT(message(text), Contains("x.toml: line 3: not valid here: a character that is allowed only in texts"));
+        CHECK_THAT(message(text),
+                   Contains("x.toml: line 3: not valid here: a character that is allowed only in texts"));
     }
     for (const char* text : {"a = 2'ä'", "a = 2='ä'", "a = [2['ä'", "a=-'ä'", "a = x'ä'"}) {
         INFO(text);
@@ -177,9 +179,9 @@ TEST_CASE("a value of another type is refused with what was found") {
 }
 
 TEST_CASE("unknown kinds and formats are refused with those that are known") {
-    CHECK_THAT(
-        message(with(kStack, "stacked-planes", "helix")),
-        Contains("x.toml: line 2: kind: found the text \"helix\"") && Contains("\"stacked-planes\" or \"rotating-panel\""));
+    CHECK_THAT(message(with(kStack, "stacked-planes", "helix")),
+               Contains("x.toml: line 2: kind: found the text \"helix\"") &&
+                   Contains("\"stacked-planes\" or \"rotating-panel\""));
     CHECK_THAT(message(with(kStack, "\"stacked-planes\"", "1")), Contains("kind: found 1"));
     CHECK_THAT(message(with(kStack, "rgb565", "rgb666")),
                Contains("x.toml: line 3: format: found the text \"rgb666\"") && Contains("\"mono1\""));

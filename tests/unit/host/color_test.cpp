@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "driver/host/color.h"
@@ -65,11 +66,11 @@ TEST_CASE("colours have the same bits on every machine") {
         float z;
         glm::vec3 color;
     } golden[] = {
-        {"gradient", 0.0f, {0x1.c0fd76p-7f, 0x1.ac8258p-4f, 0x1.fffffcp-1f}},
-        {"gradient", 0.25f, {0x1.72a9bcp-2f, 0x1.cd71a2p-4f, 0x1.48fec2p-1f}},
-        {"gradient", 0.5f, {0x1p+0f, 0x1.d1bb74p-6f, 0x1.67f824p-2f}},
-        {"gradient", 0.8f, {0x1p+0f, 0x1.30bc6ap-2f, 0x1.433d9ap-3f}},
-        {"gradient", 1.0f, {0x1p+0f, 0x1.1436a8p-1f, 0x1.527c1ep-7f}},
+        {"gradient", 0.0f, {0x1.d94bccp-7f, 0x1.b65ddep-4f, 0x1.fffffcp-1f}},
+        {"gradient", 0.25f, {0x1.8bd95ap-25f, 0x1.7da59ep-1f, 0x1.fffffap-1f}},
+        {"gradient", 0.5f, {0x1.187cap-4f, 0x1.856378p-1f, 0x1.8fb7a8p-4f}},
+        {"gradient", 0.8f, {0x1.671d3cp-1f, 0x1.753ba8p-1f, 0x1.831aaep-6f}},
+        {"gradient", 1.0f, {0x1p+0f, 0x1.51168p-1f, 0x0p+0f}},
         {"gradient:red,#00ff00", 0.25f, {0x1.b0e47p-1f, 0x1.61f068p-3f, 0x1.901004p-14f}},
         {"gradient:red,#00ff00", 0.8f, {0x1.26b314p-2f, 0x1.755f46p-1f, 0x1.8f0db4p-14f}},
         {"noise", 0.0f, {0x1.a1e2f4p-2f, 0x1.9c2b18p-1f, 0x1.404a5cp-4f}},
@@ -103,6 +104,29 @@ TEST_CASE("gradient and noise are bright everywhere, within 0 to 1, and vary") {
             varies = varies || c != colors[0];
         }
         CHECK(varies);
+    }
+}
+
+TEST_CASE("the default gradient keeps its order in few bits: blue only falls, red only rises") {
+    const auto field = parse_color("gradient").value();
+    for (const auto& [most_red, most_blue] : {std::pair{1.0f, 1.0f}, {7.0f, 3.0f}}) {
+        float red = 0.0f;
+        float blue = most_blue;
+        for (int step = 0; step <= 1000; ++step) {
+            const glm::vec3 point(0.5f, 0.5f, static_cast<float>(step) / 1000.0f);
+            glm::vec3 color(0.0f);
+            field->evaluate({&point, 1}, {&color, 1});
+            const float red_now = std::round(color.r * most_red);
+            const float blue_now = std::round(color.b * most_blue);
+            INFO("height " << point.z);
+            REQUIRE(red_now >= red);
+            REQUIRE(blue_now <= blue);
+            REQUIRE((red_now == 0.0f || blue_now == 0.0f));  // Both at once would be pink or grey.
+            red = red_now;
+            blue = blue_now;
+        }
+        CHECK(red == most_red);
+        CHECK(blue == 0.0f);
     }
 }
 

@@ -210,7 +210,7 @@ TEST_CASE("an empty volume is dark and asks for no colour") {
     CHECK(field.asked == 0);
 }
 
-TEST_CASE("a set voxel of a faint colour is lit in its strongest channel, in every format") {
+TEST_CASE("a set voxel of a faint colour is lit in its strong channels, in every format") {
     for (const PixelFormat format : kFormats) {
         INFO(std::string(to_string(format)));
         const auto display = odd_stack(format);
@@ -229,6 +229,24 @@ TEST_CASE("a set voxel of a faint colour is lit in its strongest channel, in eve
         CHECK(first_pixel({0, 1e-6f, 1e-7f}) == one(0, 1, 0));
         CHECK(first_pixel({1e-7f, 1e-7f, 1e-6f}) == one(0, 0, 1));
         CHECK(first_pixel({-1, -1, 1e-30f}) == one(0, 0, 1));
+        CHECK(first_pixel({1e-6f, 1e-6f, 0}) == one(1, 1, 0));
+        CHECK(first_pixel({1e-7f, 0.6e-6f, 1e-6f}) == one(0, 1, 1));
+        CHECK(first_pixel({NAN, 1e-6f, -1}) == one(0, 1, 0));
+    }
+}
+
+TEST_CASE("faint grey stays grey, in every format") {
+    const auto dark_to_light = parse_color("gradient:black,white").value();
+    const glm::vec3 point(0.0f, 0.0f, 0.02f);
+    glm::vec3 mixed(0.0f);
+    dark_to_light->evaluate({&point, 1}, {&mixed, 1});
+    REQUIRE(mixed.r > 0.0f);
+    for (const glm::vec3 grey : {glm::vec3(1e-6f), mixed}) {
+        CHECK(visible_code(grey, PixelFormat::Mono1) == 1);
+        CHECK(visible_code(grey, PixelFormat::Rgb111) == 7);
+        CHECK(visible_code(grey, PixelFormat::Rgb332) == 0b001'001'01);
+        CHECK(visible_code(grey, PixelFormat::Rgb565) == (1u << 11 | 1u << 5 | 1u));
+        CHECK(visible_code(grey, PixelFormat::Rgb888) == 0x010101);
     }
 }
 

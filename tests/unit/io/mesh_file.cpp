@@ -84,6 +84,19 @@ TEST_CASE("read_mesh says what is wrong with a path") {
     CHECK_THAT(refusal(folder / "huge.ply"), contains("longer than 4294967295 bytes"));
 }
 
+TEST_CASE("read_mesh puts the oddest name into a message of one line") {
+    const TempFolder folder;
+    const std::string odd = folder / "a\nb\tc.obj";
+    const auto has_name = contains("/a\\x0ab\\x09c.obj: ");
+    CHECK_THAT(refusal(odd), has_name && contains("cannot be read"));
+    CHECK_THAT(refusal(odd, {.scale = 0}), has_name && contains("cannot be scaled"));
+    put(odd, "v 1 2");
+    CHECK_THAT(refusal(odd), has_name && contains("line 1: a vertex of 2 numbers"));
+    put(odd, kCorner);
+    CHECK_THAT(refusal(odd, {.scale = 1e308}), has_name && contains("beyond the range"));
+    CHECK(io::read_mesh(odd));
+}
+
 TEST_CASE("read_mesh says that a file may not be read") {
     if (::geteuid() == 0) XORVOX_SKIP("root may read everything");
     const TempFolder folder;

@@ -1,5 +1,8 @@
 #include "voxelizer/io/mesh_report.h"
 
+#include <cmath>
+#include <map>
+#include <random>
 #include <string>
 
 #include "tests/catch.h"
@@ -125,6 +128,77 @@ TEST_CASE("report takes a face for a duplicate wherever it starts and whichever 
     add_face(mesh, {0, 1, 2, 3});  // The same corners, but a bow tie.
     const auto r = io::report(mesh.view());
     CHECK(r.duplicate_faces == 2);
+}
+
+TEST_CASE("report lets a face of two corners, there and back, change no edge") {
+    Mesh mesh = cube();
+    add_face(mesh, {0, 0, 1});
+    add_face(mesh, {1, 3, 1, 3});
+    add_face(mesh, {2, 2, 2});
+    add_face(mesh, {0, 0, 3, 0});  // 0 and 3 are opposite corners of a quad.
+    const auto r = io::report(mesh.view());
+    CHECK(r.open_edges == 0);
+    CHECK(r.non_manifold_edges == 0);
+    CHECK(r.inconsistent_edges == 0);
+    CHECK(r.closed_mod2);
+    CHECK(r.orientation == io::Orientation::Outward);
+    CHECK(r.degenerate_faces == 4);
+    CHECK(r.duplicate_faces == 0);
+}
+
+TEST_CASE("report counts the open edges that parity has, whatever the faces repeat") {
+    std::mt19937 random(36);
+    for (int round = 0; round < 2000; ++round) {
+        Mesh mesh;
+        mesh.positions.resize(5);
+        std::map<std::pair<std::uint32_t, std::uint32_t>, bool> odd;
+        for (int face = 0; face < 4; ++face) {
+            List corners(3 + random() % 3);
+            for (std::uint32_t& corner : corners) corner = static_cast<std::uint32_t>(random() % 5);
+            add_face(mesh, corners);
+            for (std::size_t i = 0; i < corners.size(); ++i) {
+                const auto edge = std::minmax(corners[i], corners[(i + 1) % corners.size()]);
+                if (edge.first != edge.second) odd[edge] = !odd[edge];
+            }
+        }
+        std::size_t open = 0;
+        for (const auto& [edge, is_odd] : odd) open += is_odd ? 1u : 0u;
+        REQUIRE(io::report(mesh.view()).open_edges == open);
+    }
+}
+
+TEST_CASE("report of a volume is finite wherever a double can hold it, and never nan") {
+    const auto of_cube = [](double at, double side) {
+        Mesh mesh;
+        add_cube(mesh, glm::dvec3(at), side);
+        return io::report(mesh.view());
+    };
+    CHECK(of_cube(0, 0x1p340).signed_volume == 0x1p1020);
+    CHECK(of_cube(0, 0x1p-340).signed_volume == 0x1p-1020);
+    CHECK(of_cube(0x1p300, 0x1p290).signed_volume == 0x1p870);
+    for (const double side : {1e200, 1.7e308}) {
+        const auto r = of_cube(-side / 2, side);
+        CHECK(r.signed_volume == HUGE_VAL);
+        CHECK(r.orientation == io::Orientation::Outward);
+        CHECK(r.degenerate_faces == 0);
+    }
+    CHECK(of_cube(0, -1e200).signed_volume == -HUGE_VAL);
+    CHECK(of_cube(0, 1e-200).signed_volume == 0);
+    CHECK(of_cube(0, 1e-200).degenerate_faces == 0);
+    CHECK(of_cube(0, 5e-324).degenerate_faces == 0);
+    CHECK(of_cube(1e308, 0).signed_volume == 0);
+    // Long in one direction and thin in the others: the volume is a number though the cube of the length is none.
+    Mesh needle = cube();
+    for (glm::dvec3& p : needle.positions) p *= glm::dvec3(1e300, 1e-10, 1e-10);
+    CHECK(io::report(needle.view()).signed_volume == Approx(1e280));
+    // From one end of the range of doubles to the other.
+    Mesh widest = cube();
+    for (glm::dvec3& p : widest.positions) p = (p * 2.0 - 1.0) * glm::dvec3(1.7e308, 1e-308, 1);
+    CHECK(io::report(widest.view()).signed_volume == Approx(3.4 * 2 * 2));
+    // A plane figure has none.
+    Mesh flat = cube();
+    for (glm::dvec3& p : flat.positions) p *= glm::dvec3(1e200, 1e200, 0);
+    CHECK(io::report(flat.view()).signed_volume == 0);
 }
 
 TEST_CASE("report finds faces without area") {

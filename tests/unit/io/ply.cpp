@@ -172,7 +172,7 @@ TEST_CASE("ply: what is wrong in ascii data is named with its line") {
     CHECK_THAT(with("3 0 2 1\n", "2 0 2\n"), contains("polygon of 2 corners"));
     CHECK_THAT(with("3 0 2 1\n", "3 0 2 1.5\n"), contains("'1.5' is not a whole number"));
     CHECK_THAT(with("3 0 2 1\n", "9223372036854775807 0 2 1\n"), contains("too few"));
-    CHECK_THAT(with("3 2 0 3\n", ""), contains("cut short"));
+    CHECK_THAT(with("3 2 0 3\n", ""), contains("entry 3 of element 'face': the file ends here; it was cut short"));
     CHECK_THAT(refusal(kParse, kAscii + "3 0 1 2\n"), contains("line 19: unexpected '3' after the last element"));
     CHECK(io::parse_ply(kAscii + " \r\n\n", "file"));
 }
@@ -212,9 +212,27 @@ TEST_CASE("ply: what is wrong in binary data is named with its byte") {
                                                      contains("vertex -5 of a file with 4"));
     CHECK_THAT(refusal(kParse, file(0, 0, "xyz")),
                contains("byte " + std::to_string(start + 48 + 52) + ": 3 more bytes"));
-    CHECK_THAT(refusal(kParse, file(0, 0, "").substr(0, start + 99)), contains("too short"));
+    CHECK_THAT(refusal(kParse, file(0, 0, "").substr(0, start + 99)),
+               contains("entry 3 of element 'face': the file ends here; it was cut short"));
     std::string wide = mixed_binary(std::endian::little);
     CHECK_THAT(refusal(kParse, wide.substr(0, wide.size() - 1)), contains("cut short"));
+}
+
+TEST_CASE("ply: a polygon of too few corners is named, not the size of the file") {
+    const std::string vertices = kAscii.substr(0, kAscii.find("3 0 2 1\n"));
+    CHECK_THAT(refusal(kParse, vertices + "2 0 1\n2 0 1\n2 0 1\n2 0 1\n"),
+               contains("line 15: entry 0 of element 'face': a polygon of 2 corners; it needs at least three"));
+    CHECK_THAT(refusal(kParse, vertices + "-1\n-1\n-1\n-1\n"),
+               contains("line 15: ") && contains("a polygon of -1 corners"));
+    CHECK_THAT(refusal(kParse, vertices + "3 0 1 2\n0\n0\n0"),
+               contains("line 16: ") && contains("a polygon of 0 corners"));
+
+    std::string header = replaced(kAscii.substr(0, kAscii.find("0 0 0\n")), "ascii", "binary_little_endian");
+    header = replaced(header, "uchar", "char") + std::string(48, '\0');
+    const std::string byte = "byte " + std::to_string(header.size()) + ": entry 0 of element 'face': ";
+    CHECK_THAT(refusal(kParse, header + std::string("\2\0\0\0\0\1\0\0\0", 9)),
+               contains(byte + "a polygon of 2 corners"));
+    CHECK_THAT(refusal(kParse, header + "\xff\xff\xff\xff"), contains(byte + "a polygon of -1 corners"));
 }
 
 TEST_CASE("ply: a file of points has no faces to read") {

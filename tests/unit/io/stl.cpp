@@ -78,6 +78,8 @@ TEST_CASE("stl: several solids, words on other lines, no names") {
 }
 
 TEST_CASE("stl: what is wrong in text is named with its line") {
+    CHECK_THAT(refusal(kParse, "solid\n"), contains("line 2: the file ends where 'facet' or 'endsolid' is due"));
+    CHECK_THAT(refusal(kParse, "solid\nfacets\n"), contains("line 2: expected 'facet' or 'endsolid', found 'facets'"));
     const auto with = [](std::string_view from, std::string_view to) {
         return refusal(kParse, replaced(kText, from, to));
     };

@@ -238,6 +238,15 @@ TEST_CASE("volumes are refused with a reason and no file") {
     CHECK_THAT(refusal(folder / "a.d/nrrd", volume, lattice), contains("''"));
     CHECK_FALSE(io::check_volume_path("a.vox"));
     CHECK(io::check_volume_path("a.NRRD"));
+    CHECK(io::check_volume_path("a.b/.c.nrrd"));
+    for (const std::string name : {".nrrd", ".NRRD", ".bits", "./.binvox"}) {
+        const auto known = io::check_volume_path(folder / name);
+        REQUIRE_FALSE(known);
+        CHECK_THAT(known.error().message, contains(name + ": has no name before its extension"));
+        CHECK_FALSE(io::check_volume_path(name));
+    }
+    CHECK_THAT(refusal(folder / "a\n.v\nx", volume, lattice), contains("/a\\x0a.v\\x0ax: the extension '.v\\x0ax'"));
+    CHECK_THAT(refusal(folder / "a\n.nrrd", BitVolume(2, 2, 3), lattice), contains("/a\\x0a.nrrd: a volume of"));
     CHECK_THAT(refusal(folder / "a.nrrd", BitVolume(2, 2, 3), lattice),
                contains("a volume of 2×2×3 is not on a lattice of 2×2×2"));
     Lattice bad = lattice;

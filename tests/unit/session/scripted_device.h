@@ -115,6 +115,12 @@ public:
         return hello;
     }
 
+    /// Says who it is and, before it is asked, how it is.
+    void greet(const wire::Hello& hello) {
+        send(hello);
+        send(wire::DeviceStatus{.watchdog_ms = 2000, .fault = hello.fault, .free_pages = hello.free_pages});
+    }
+
     void accept(const wire::FrameEnd& end, std::uint8_t free_pages = 1) {
         send(wire::Acknowledge{
             .stage = wire::AckStage::Accepted, .frame = end.frame, .page_crc = end.page_crc, .free_pages = free_pages});
@@ -149,7 +155,7 @@ struct Rig {
     /// Hello, answered.
     void connect() {
         (void)poll();
-        device.send(device.hello(device.receive_one().as<wire::HelloRequest>()));
+        device.greet(device.hello(device.receive_one().as<wire::HelloRequest>()));
         (void)poll();
         REQUIRE(session.state() == SessionState::Ready);
     }

@@ -1,6 +1,7 @@
 // How a session begins, is refused, falls silent and begins again.
 
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -94,24 +95,59 @@ TEST_CASE("sizes and formats of a hello that do not fit the display are refused"
     CHECK(rig.error_says("firmware"));
 }
 
-TEST_CASE("another major version is refused, by either side") {
+/// A hello of the next major version of the protocol.
+Bytes later_hello(std::uint16_t session, std::uint32_t sequence) {
+    Bytes packet(200);
+    std::size_t size = 0;
+    REQUIRE(encode_packet(session, sequence, Hello{}, packet, size) == Status::Ok);
+    packet.resize(size);
+    packet[2] = std::byte{kMajor + 1};
+    const std::uint32_t crc = crc32c(std::span(packet).first(size - 4));
+    for (std::size_t i = 0; i < 4; ++i) packet[size - 4 + i] = static_cast<std::byte>(crc >> (8 * i));
+    return packet;
+}
+
+TEST_CASE("another major version is refused, by either side, at any time") {
     Rig rig;
+    if (GENERATE(false, true)) rig.connect();
     (void)rig.poll();
     (void)rig.device.receive();
     const bool by_device = GENERATE(true, false);
     if (by_device) {
         rig.device.send(Nack{.reason = NackReason::BadVersion});
     } else {
-        Bytes packet(200);
-        std::size_t size = 0;
-        REQUIRE(encode_packet(1, 0, Hello{}, packet, size) == Status::Ok);
-        packet[2] = std::byte{kMajor + 1};
-        const std::uint32_t crc = crc32c(std::span(packet).first(size - 4));
-        for (std::size_t i = 0; i < 4; ++i) packet[size - 4 + i] = static_cast<std::byte>(crc >> (8 * i));
-        rig.device.send_bytes(std::span(packet).first(size));
+        rig.device.send_bytes(later_hello(1, rig.device.next_sequence));
     }
     CHECK(rig.poll() == Status::Refused);
     CHECK(rig.error_says("update the older one"));
+}
+
+TEST_CASE("another major version in another session is none of ours") {
+    Rig rig;
+    rig.connect();
+    rig.device.send_bytes(later_hello(2, 0));
+    CHECK(rig.poll() == Status::WouldBlock);
+    CHECK(rig.session.state() == SessionState::Ready);
+    CHECK(rig.session.statistics().packets_ignored == 1);
+}
+
+TEST_CASE("numbers of packets wrap") {
+    STATIC_REQUIRE(is_newer(1, 0));
+    STATIC_REQUIRE(is_newer(0, 0xffffffff));
+    STATIC_REQUIRE(is_newer(0x7fffffff, 0));
+    STATIC_REQUIRE_FALSE(is_newer(5, 5));
+    STATIC_REQUIRE_FALSE(is_newer(0xffffffff, 0));
+    STATIC_REQUIRE_FALSE(is_newer(0x80000000, 0));
+    STATIC_REQUIRE_FALSE(is_newer(0, 0x80000000));
+    Rig rig;
+    rig.device.next_sequence = 0xfffffffe;
+    rig.connect();
+    rig.device.send(DeviceStatus{.brightness = 7, .free_pages = 2});
+    (void)rig.poll();
+    CHECK(rig.session.device_status().brightness == 7);
+    rig.device.send_numbered(DeviceStatus{.brightness = 8, .free_pages = 2}, 0xffffffff);
+    (void)rig.poll();
+    CHECK(rig.session.device_status().brightness == 7);
 }
 
 TEST_CASE("a closed link is Failed with a clear message") {
@@ -203,7 +239,7 @@ TEST_CASE("a device that was reset gets the frame again, as a keyframe") {
     REQUIRE_FALSE(packets.empty());
     rig.device.boot_nonce = 78;
     rig.device.next_sequence = 0;
-    rig.device.send(rig.device.hello(packets.back().as<HelloRequest>()));
+    rig.device.greet(rig.device.hello(packets.back().as<HelloRequest>()));
     const auto frame = rig.sent_frame();
     CHECK(frame.front().as<FrameBegin>().flags == 0);
     CHECK(decode_frame(frame) == second);
@@ -218,7 +254,7 @@ TEST_CASE("a new boot nonce in a later hello starts again; a repeated hello does
     Rig rig;
     (void)rig.poll();
     const auto request = rig.device.receive_one().as<HelloRequest>();
-    rig.device.send(rig.device.hello(request));
+    rig.device.greet(rig.device.hello(request));
     (void)rig.poll();
     REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
     const auto first_id = rig.sent_frame().front().as<FrameBegin>().frame;
@@ -229,7 +265,7 @@ TEST_CASE("a new boot nonce in a later hello starts again; a repeated hello does
     CHECK(rig.session.statistics().hellos == 1);
 
     rig.device.boot_nonce = 78;
-    rig.device.send(rig.device.hello(request));
+    rig.device.greet(rig.device.hello(request));
     const auto again = rig.sent_frame();
     CHECK(again.front().as<FrameBegin>().frame == first_id + 1);
     CHECK(rig.session.statistics().hellos == 2);

@@ -61,12 +61,12 @@ TEST_CASE("without a free page no frame is taken or sent, and the device is aske
     Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
     hello.free_pages = 0;
     if (GENERATE(false, true)) {
-        rig.device.send(hello);
+        rig.device.greet(hello);
         (void)rig.poll();
         CHECK(rig.session.submit(make_frame(rig.display, 1)) == Status::WouldBlock);
     } else {
         REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-        rig.device.send(hello);
+        rig.device.greet(hello);
         (void)rig.poll();
     }
     CHECK(rig.device.receive().empty());
@@ -84,7 +84,7 @@ TEST_CASE("a frame for which no page ever becomes free is given up with a reason
     (void)rig.poll();
     Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
     hello.free_pages = 0;
-    rig.device.send(hello);
+    rig.device.greet(hello);
     Status status = rig.poll();
     for (int i = 0; i < 200 && status == Status::WouldBlock; ++i) {
         for (const Received& packet : rig.device.receive()) {
@@ -94,6 +94,20 @@ TEST_CASE("a frame for which no page ever becomes free is given up with a reason
         status = rig.poll_after(100 * kMs);
     }
     CHECK(status == Status::Closed);
+    CHECK(rig.error_says("no free page"));
+}
+
+TEST_CASE("a session that failed for want of a page stays so, also when the device is silent") {
+    Rig rig;
+    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
+    (void)rig.poll();
+    Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
+    hello.free_pages = 0;
+    rig.device.greet(hello);
+    (void)rig.poll();
+    (void)rig.poll_after(500 * kMs);
+    CHECK(rig.poll_after(5000 * kMs) == Status::Closed);
+    CHECK(rig.session.state() == SessionState::Failed);
     CHECK(rig.error_says("no free page"));
 }
 
@@ -151,6 +165,19 @@ TEST_CASE("a frame refused every time is given up, saying why") {
     CHECK(status == Status::Closed);
     CHECK(frames == 10);
     CHECK(rig.error_says("did not accept a frame in 10 attempts: the page's checksum was wrong"));
+}
+
+TEST_CASE("a frame that the device takes for another display's is given up at once, saying so") {
+    Rig rig;
+    rig.connect();
+    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
+    const auto id = rig.sent_frame().front().as<FrameBegin>().frame;
+    rig.device.send(Nack{.reason = NackReason::BadFrame, .frame = id, .free_pages = 1});
+    CHECK(rig.poll() == Status::Refused);
+    CHECK(rig.session.state() == SessionState::Failed);
+    CHECK(rig.error_says("refuses a frame as not made for it"));
+    CHECK(rig.device.receive().empty());
+    CHECK(rig.session.statistics().frames_resent == 0);
 }
 
 TEST_CASE("a frame without an answer is sent again as a keyframe") {
@@ -263,7 +290,7 @@ TEST_CASE("no deltas where the host or the device does not want them") {
     (void)rig.poll();
     Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
     if (!by_host) hello.features = 0;
-    rig.device.send(hello);
+    rig.device.greet(hello);
     (void)rig.poll();
     for (std::uint32_t i = 1; i <= 3; ++i) {
         REQUIRE(rig.session.submit(make_frame(rig.display, i)) == Status::Ok);
@@ -280,7 +307,7 @@ TEST_CASE("chunks are raw where the device knows nothing else, and fit its packe
     Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
     hello.codecs = 1;
     hello.max_packet_bytes = 256;
-    rig.device.send(hello);
+    rig.device.greet(hello);
     (void)rig.poll();
     const Bytes frame = make_frame(rig.display, 1);
     REQUIRE(rig.session.submit(frame) == Status::Ok);

@@ -8,11 +8,14 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "sim/camera.h"
 #include "sim/develop.h"
 #include "sim/image.h"
+#include "sim/label.h"
+#include "sim/outline.h"
 #include "sim/surface.h"
 #include "tests/catch.h"
 #include "tests/unit/sim/displays.h"
@@ -22,44 +25,136 @@ namespace {
 
 using namespace test;
 
-/// The middle of what is lit in columns `from` … `to` of an image, as shares of that part: 0 … 1 from the left and from
-/// the bottom.
-glm::dvec2 middle_of_light(const sim::Image& image, std::uint32_t from, std::uint32_t to) {
-    glm::dvec2 sum(0.0);
-    double weight = 0.0;
+/// Where the pixels are of which channel `strong` is bright and channel `weak` dark, in columns `from` … `to`: their
+/// bounds, in pixels from the left and from the bottom.
+struct Patch {
+    glm::dvec2 lower{1e9};
+    glm::dvec2 upper{-1e9};
+    glm::dvec2 middle() const { return (lower + upper) / 2.0; }
+};
+
+Patch patch_of(const sim::Image& image, unsigned strong, unsigned weak, std::uint32_t from, std::uint32_t to) {
+    Patch patch;
     for (std::uint32_t row = 0; row < image.height; ++row) {
         for (std::uint32_t column = from; column < to; ++column) {
             const std::uint8_t* pixel = image.rgb.data() + 3 * (std::size_t{row} * image.width + column);
-            if (std::max({pixel[0], pixel[1], pixel[2]}) < 120) continue;
-            sum += glm::dvec2((column - from + 0.5) / (to - from), 1.0 - (row + 0.5) / image.height);
-            weight += 1.0;
+            if (pixel[strong] < 70 || pixel[weak] > 40) continue;
+            const glm::dvec2 place(column + 0.5, image.height - row - 0.5);
+            patch.lower = glm::min(patch.lower, place);
+            patch.upper = glm::max(patch.upper, place);
         }
     }
-    REQUIRE(weight > 0.0);
-    return sum / weight;
+    REQUIRE(patch.lower.x < 1e9);
+    return patch;
 }
 
-TEST_CASE("orthographic views are the right way round") {
-    // One lit voxel, to the right of, in front of and below the middle.
-    const DisplayDescription display = stack_of(8, 8, 8, PixelFormat::Mono1);
+TEST_CASE("orthographic views are the right way round, at one scale, and as large as the light allows") {
+    // A red voxel, and a blue one farther right, at the back and above.
+    const DisplayDescription display = stack_of(30, 30, 30, PixelFormat::Rgb111);
     std::vector<std::byte> page = dark_page(display);
-    set_pixel(display, page, {.slice = 1, .row = 2, .column = 6}, 1);
-    const sim::Picture picture = sim::render_orthographic(display, sim::expose(display, page, 255), 160);
-    REQUIRE(picture.image.width == 480);
-    REQUIRE(picture.image.height == 160);
+    set_pixel(display, page, {.slice = 4, .row = 2, .column = 6}, 1);
+    set_pixel(display, page, {.slice = 6, .row = 6, .column = 12}, 4);
+    const glm::dvec3 apart_mm(12.0, 12.0, 14.0);
+    const std::uint32_t side = 200;
+    const sim::Image image = sim::render_orthographic(display, sim::expose(display, page, 255), side).image;
+    REQUIRE(image.width == 3 * side);
+    REQUIRE(image.height == side);
 
-    // The longest side, 56 mm upwards, takes 92 % of each view.
-    const auto share = [](double mm) { return 0.5 + 0.92 * mm / 56.0; };
-    const glm::dvec3 place(5.0, -4.5, -17.5);
-    const glm::dvec2 front = middle_of_light(picture.image, 0, 160);
-    CHECK(front.x == Approx(share(place.x)).margin(0.01));
-    CHECK(front.y == Approx(share(place.z)).margin(0.01));
-    const glm::dvec2 side = middle_of_light(picture.image, 160, 320);
-    CHECK(side.x == Approx(share(place.y)).margin(0.01));
-    CHECK(side.y == Approx(share(place.z)).margin(0.01));
-    const glm::dvec2 top = middle_of_light(picture.image, 320, 480);
-    CHECK(top.x == Approx(share(place.x)).margin(0.01));
-    CHECK(top.y == Approx(share(place.y)).margin(0.01));
+    const int axes[3][2] = {{0, 2}, {1, 2}, {0, 1}};
+    double scale = 0.0;
+    for (std::uint32_t view = 0; view < 3; ++view) {
+        INFO("view " << view);
+        const Patch red = patch_of(image, 0, 2, view * side, (view + 1) * side);
+        const Patch blue = patch_of(image, 2, 0, view * side, (view + 1) * side);
+        const glm::dvec2 seen = blue.middle() - red.middle();
+        const glm::dvec2 apart(apart_mm[axes[view][0]], apart_mm[axes[view][1]]);
+        if (view == 0) scale = seen.x / apart.x;
+        CHECK(seen.x == Approx(scale * apart.x).margin(3.0));
+        CHECK(seen.y == Approx(scale * apart.y).margin(3.0));
+    }
+    const Patch red = patch_of(image, 0, 2, 0, side);
+    const Patch blue = patch_of(image, 2, 0, 0, side);
+    CHECK(blue.upper.y - red.lower.y > 0.8 * side);
+    CHECK(red.lower.y > 0.02 * side);
+    CHECK(blue.upper.y < 0.98 * side);
+}
+
+TEST_CASE("orthographic views fit their tiles, however long the object is") {
+    const auto long_axis = GENERATE(0, 1, 2);
+    const DisplayDescription display = stack_of(40, 40, 40);
+    std::vector<std::byte> page = dark_page(display);
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        const std::uint32_t place[3] = {long_axis == 0 ? i : 20, long_axis == 1 ? i : 20, long_axis == 2 ? i : 20};
+        set_pixel(display, page, {.slice = place[2], .row = place[1], .column = place[0]}, 1);
+    }
+    const sim::Image image = sim::render_orthographic(display, sim::expose(display, page, 255), 240).image;
+    const auto lit = [&](std::uint32_t column, std::uint32_t row) {
+        return image.rgb[3 * (std::size_t{row} * image.width + column)] > 150;
+    };
+    for (std::uint32_t column = 0; column < image.width; ++column) {
+        CHECK_FALSE(lit(column, 0));
+        CHECK_FALSE(lit(column, image.height - 1));
+    }
+    // Three separate pieces of light, neither of which touches the border.
+    std::uint32_t pieces = 0;
+    bool before = false;
+    for (std::uint32_t column = 0; column < image.width; ++column) {
+        bool any = false;
+        for (std::uint32_t row = 20; row < image.height; ++row) any = any || lit(column, row);
+        pieces += any && !before;
+        before = any;
+        if (column == 0) CHECK_FALSE(any);
+    }
+    CHECK_FALSE(before);
+    CHECK(pieces == 3);
+}
+
+TEST_CASE("orthographic views are labelled where there is room") {
+    const auto ink = [](std::uint32_t side) {
+        const sim::Image image = sim::render_orthographic(stack_of(4, 4, 4), {}, side).image;
+        std::size_t bright = 0;
+        for (const std::uint8_t value : image.rgb) bright += value > 90;
+        return bright;
+    };
+    CHECK(ink(239) == 0);
+    CHECK(ink(240) > 3 * 100);
+}
+
+TEST_CASE("a label is written where it is asked for, and cut at the film's edge") {
+    sim::Film film{12, 10, std::vector<glm::vec4>(120)};
+    sim::draw_label(film, "to", 1, 0, 1);
+    const auto at = [&](std::uint32_t column, std::uint32_t row) { return film.pixels[row * 12 + column].x > 0.0f; };
+    CHECK(at(1, 2));  // The bar of t,
+    CHECK(at(4, 2));
+    CHECK_FALSE(at(5, 2));
+    CHECK(at(7, 4));  // and the left and right of o.
+    CHECK_FALSE(at(9, 4));
+    CHECK(at(11, 4));
+    CHECK_FALSE(at(11, 9));
+    sim::draw_label(film, "d", 10, 8, 3);
+    CHECK_FALSE(at(0, 9));
+}
+
+TEST_CASE("no voxel sticks out of the outline, and the outermost touch it") {
+    const DisplayDescription display = GENERATE(stack_of(5, 4, 3), rotor_of(8, 4, 90));
+    const DisplayExtent space = sim::drawn_extent(display);
+    std::vector<std::byte> page(frame_bytes(display), std::byte{0xff});
+    glm::dvec3 reach(0.0);
+    for (const sim::Voxel& voxel : sim::visible_voxels(display, sim::expose(display, page, 255))) {
+        glm::dvec3 far = glm::abs(voxel.place_mm);
+        if (space.radius_mm > 0.0) far.x = far.y = glm::length(glm::dvec2(voxel.place_mm));
+        glm::dvec3 half(voxel.half_mm);
+        if (space.radius_mm > 0.0) half.y = half.x;
+        reach = glm::max(reach, far + double{sim::kVoxelFilling} * half);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        INFO("axis " << axis);
+        CHECK(reach[axis] == Approx(space.upper[axis]).epsilon(1e-6));
+        CHECK(space.lower[axis] == Approx(-space.upper[axis]));
+    }
+    glm::dvec3 widest(0.0);
+    for (const sim::Segment& segment : sim::outline(display)) widest = glm::max(widest, glm::abs(segment.from_mm));
+    CHECK(glm::distance(widest, space.upper) < 1e-9);
 }
 
 TEST_CASE("in an orthographic view the nearer voxel hides the farther one") {
@@ -155,6 +250,24 @@ TEST_CASE("endless light is not clipped, and a dim object keeps its colour") {
     const sim::Image dim = sim::develop(film, 0.3f);
     CHECK(dim.rgb[0] > 70);
     CHECK(dim.rgb[1] <= 1);
+}
+
+TEST_CASE("strong light keeps its hue, and white is white") {
+    const auto linear = [](std::uint8_t value) {
+        const double code = value / 250.0;
+        return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+    };
+    for (const float strength : {0.3f, 1.0f, 3.0f}) {
+        INFO("strength " << strength);
+        const sim::Film gold{1, 1, {glm::vec4(strength, 0.68f * strength, 0.0f, 1.0f)}};
+        const std::vector<std::uint8_t> shown = sim::develop(gold, 0.0f).rgb;
+        CHECK(linear(shown[1]) / linear(shown[0]) == Approx(0.68).margin(0.02));
+        CHECK(shown[2] <= 1);
+        const sim::Film white{1, 1, {glm::vec4(strength, strength, strength, 1.0f)}};
+        const std::vector<std::uint8_t> equal = sim::develop(white, 0.0f).rgb;
+        CHECK(equal[0] == equal[1]);
+        CHECK(equal[0] == equal[2]);
+    }
 }
 
 TEST_CASE("a PNG file gives back the image, and equal images equal files") {

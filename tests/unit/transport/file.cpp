@@ -27,12 +27,12 @@ struct Folder {
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
     ~Folder() { fs::remove_all(path); }
-    std::string file(const char* name) const { return (path / name).string(); }
+    std::string file(const std::string& name) const { return (path / name).string(); }
     /// Everything in it, sorted.
     Names names() const {
         Names names;
         for (const auto& entry : fs::recursive_directory_iterator(path)) {
-            names.push_back(fs::relative(entry.path(), path).string());
+            names.push_back(entry.path().lexically_relative(path).string());
         }
         std::sort(names.begin(), names.end());
         return names;

@@ -1,0 +1,157 @@
+#include "tools/delivery.h"
+
+#include <chrono>
+#include <cstdio>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "sim/picture.h"
+#include "sim/simulator.h"
+#include "tools/console.h"
+#include "tools/placement.h"
+#include "tools/stop.h"
+#include "transport/file.h"
+#include "transport/loopback.h"
+#include "transport/tcp.h"
+
+namespace xorvox::tools {
+namespace {
+
+std::uint64_t clock_ns() {
+    return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
+                                      std::chrono::nanoseconds(1));
+}
+
+/// A display may remember the last session, so each gets another id; a file is the same every time.
+host::SessionOptions session_options(bool two_way) {
+    host::SessionOptions options;
+    if (!two_way) return options;
+    options.session = static_cast<std::uint16_t>(std::random_device()() % 0xffff + 1);
+    return options;
+}
+
+Expected<void> write_png(io::AtomicFile& file, const sim::Image& image) {
+    const std::vector<std::byte> png = sim::encode_png(image);
+    const auto written = file.write({reinterpret_cast<const char*>(png.data()), png.size()});
+    return written ? file.commit() : written;
+}
+
+/// A display in this program, in simulated time: both ends move in turn, and the clock jumps when neither can.
+Expected<Delivery> show_in_process(const ShowOptions& options, const DisplayDescription& display,
+                                   std::span<const std::byte> frame, std::size_t voxels, io::AtomicFile* png) {
+    auto [host_end, device_end] = transport::make_loopback();
+    Expected<sim::Simulator> simulator = sim::Simulator::make(display, device_end.get());
+    if (!simulator) return tl::unexpected(simulator.error());
+    host::Session session(host_end.get(), display);
+
+    std::uint64_t now_ns = 0;
+    bool submitted = false;
+    while (session.statistics().frames_presented == 0) {
+        const Status host_moved = session.poll(now_ns);
+        const Status device_moved = simulator->poll(now_ns);
+        if (session.state() == host::SessionState::Failed) return tl::unexpected(session.error());
+        if (!submitted) submitted = session.submit(frame) == Status::Ok;
+        if (host_moved == Status::WouldBlock && device_moved == Status::WouldBlock)
+            now_ns = simulator->next_boundary_ns();
+    }
+
+    Delivery delivery{session.statistics(), std::nullopt, 0.0};
+    // Flashes, and what sorts and draws them.
+    constexpr std::uint64_t kBytesAPixel = 160;
+    if (const auto fits = check_memory(voxels * kBytesAPixel, "the light of " + thousands(voxels) + " pixels"); !fits) {
+        return tl::unexpected(fits.error());
+    }
+    const sim::LightField light = simulator->light();
+    {
+        const Progress progress("measuring the light");
+        delivery.light = sim::measure(display, light, simulator->device().status(now_ns));
+    }
+    if (png != nullptr) {
+        const Progress progress("drawing the picture");
+        sim::Picture picture;
+        if (options.view == "orthographic") {
+            picture = sim::render_orthographic(display, light);
+        } else {
+            Expected<sim::Picture> drawn = sim::render_perspective(display, light);
+            if (!drawn) return fail(drawn.error().message + "; --view orthographic needs no OpenGL");
+            picture = std::move(*drawn);
+        }
+        if (const auto written = write_png(*png, picture.image); !written) {
+            return tl::unexpected(written.error());
+        }
+        delivery.picture_covered = picture.covered;
+    }
+    return delivery;
+}
+
+/// Sends the frame and waits until it is presented, or, where there is no way back, until the link has all of it. With
+/// --hold it stays, which keeps the display's watchdog quiet, until a signal comes.
+Expected<Delivery> send_over(Link link, const ShowOptions& options, const DisplayDescription& display,
+                             std::span<const std::byte> frame) {
+    const bool two_way = link.info().two_way;
+    if (!two_way && !options.json) {
+        fmt::print("{} has no way back: keyframes only, and the display is taken to be as {} says\n", options.to,
+                   display.name.view());
+    }
+    const Progress progress("sending to " + options.to);
+    // Nobody answers a recording: its time is 0, so that equal frames give equal files.
+    const auto now_ns = [two_way] { return two_way ? clock_ns() : 0; };
+    host::Session session(link, display, session_options(two_way));
+    bool submitted = false;
+    const auto done = [&] {
+        return submitted && session.idle() && (!two_way || session.statistics().frames_presented > 0);
+    };
+    stop_on_signals();
+    const auto failed = [&] { return fail(fmt::format("{}: {}", options.to, session.error().message)); };
+    while (!done()) {
+        const Status moved = session.poll(now_ns());
+        if (session.state() == host::SessionState::Failed) return failed();
+        if (asked_to_stop()) return fail(options.to + ": interrupted before the display had the frame");
+        if (!submitted) submitted = session.submit(frame) == Status::Ok;
+        if (moved != Status::WouldBlock) continue;
+        // Whatever it says, the session's own time-outs are looked at next.
+        (void)link.wait(session.events(), 20'000'000);
+    }
+    if (two_way && session.device_status().fault == wire::Fault::Scan) {
+        warn(options.to + ": the display reports a fault of its scanner and stays dark until that is cleared");
+    }
+    if (options.hold) {
+        fmt::print("{} shows it; Ctrl-C ends\n", options.to);
+        std::fflush(stdout);
+        while (!asked_to_stop()) {
+            const Status moved = session.poll(now_ns());
+            if (session.state() == host::SessionState::Failed) return failed();
+            if (moved == Status::WouldBlock) (void)link.wait(session.events(), 100'000'000);
+        }
+    }
+    return Delivery{session.statistics(), std::nullopt, 0.0};
+}
+
+}  // namespace
+
+Expected<Delivery> deliver(const ShowOptions& options, const transport::Address& address,
+                           const DisplayDescription& display, std::span<const std::byte> frame, std::size_t voxels,
+                           io::AtomicFile* png) {
+    switch (address.kind) {
+        case transport::AddressKind::Loopback: return show_in_process(options, display, frame, voxels, png);
+        case transport::AddressKind::Tcp: {
+            Expected<UniqueLink> link = transport::connect_tcp(address.host, address.port);
+            if (!link) return tl::unexpected(link.error());
+            return send_over(link->get(), options, display, frame);
+        }
+        case transport::AddressKind::File: {
+            Expected<UniqueLink> link = transport::open_file_writer(address.path);
+            if (!link) return tl::unexpected(link.error());
+            Expected<Delivery> delivery = send_over(link->get(), options, display, frame);
+            if (!delivery) return delivery;
+            if (const auto kept = transport::commit_file(link->get()); !kept) return tl::unexpected(kept.error());
+            return delivery;
+        }
+    }
+    return fail("unknown kind of address");
+}
+
+}  // namespace xorvox::tools
