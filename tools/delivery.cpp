@@ -1,6 +1,5 @@
 #include "tools/delivery.h"
 
-#include <chrono>
 #include <cstdio>
 #include <random>
 #include <utility>
@@ -8,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "driver/wire/packet.h"
 #include "sim/picture.h"
 #include "sim/simulator.h"
+#include "tools/clock.h"
 #include "tools/console.h"
 #include "tools/placement.h"
 #include "tools/stop.h"
@@ -20,16 +21,12 @@
 namespace xorvox::tools {
 namespace {
 
-std::uint64_t clock_ns() {
-    return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
-                                      std::chrono::nanoseconds(1));
-}
-
-/// A display may remember the last session, so each gets another id; a file is the same every time.
-host::SessionOptions session_options(bool two_way) {
+/// A display remembers the session before, so each gets another id; that of a recording follows from its frame, so that
+/// equal frames give equal files.
+host::SessionOptions session_options(bool two_way, std::span<const std::byte> frame) {
     host::SessionOptions options;
-    if (!two_way) return options;
-    options.session = static_cast<std::uint16_t>(std::random_device()() % 0xffff + 1);
+    const std::uint32_t number = two_way ? std::random_device()() : wire::crc32c(frame);
+    options.session = static_cast<std::uint16_t>(number % 0xffff + 1);
     return options;
 }
 
@@ -99,7 +96,7 @@ Expected<Delivery> send_over(Link link, const ShowOptions& options, const Displa
     const Progress progress("sending to " + options.to);
     // Nobody answers a recording: its time is 0, so that equal frames give equal files.
     const auto now_ns = [two_way] { return two_way ? clock_ns() : 0; };
-    host::Session session(link, display, session_options(two_way));
+    host::Session session(link, display, session_options(two_way, frame));
     bool submitted = false;
     const auto done = [&] {
         return submitted && session.idle() && (!two_way || session.statistics().frames_presented > 0);

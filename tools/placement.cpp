@@ -90,6 +90,17 @@ Expected<void> check_memory(std::uint64_t bytes, const std::string& what) {
                             bytes >> 20, available >> 20));
 }
 
+Expected<void> check_display_fits(const DisplayDescription& display) {
+    constexpr std::uint64_t kFrames = 8;
+    constexpr std::uint64_t kBytesAColumn = 64;
+    const std::uint64_t columns =
+        frame_pixels(display) / std::max<std::uint64_t>(1, display.kind == DisplayKind::RotatingPanel
+                                                               ? display.panels[0].rows
+                                                               : display.slices);
+    return check_memory(kFrames * frame_bytes(display) + columns * kBytesAColumn + frame_pixels(display) / 8,
+                        fmt::format("the display {}", display.name.view()));
+}
+
 Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, const std::string& source) {
     const Expected<Box> box = bounds(mesh.view());
     if (!box) return fail(source + ": " + box.error().message);

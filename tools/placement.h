@@ -15,6 +15,10 @@ Expected<Lattice> place_grid(const GridOptions& options, const MeshView& mesh, c
 /// Refuses work that needs more memory than this machine has free; `what` names it in the message.
 Expected<void> check_memory(std::uint64_t bytes, const std::string& what);
 
+/// Refuses a display that this machine has no memory for: frames in the host, the link and the device's pages, the
+/// lattice and a volume.
+Expected<void> check_display_fits(const DisplayDescription& display);
+
 /// Scales the mesh uniformly and moves it so that it fills the display's extent, centred, its z axis up.
 Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, const std::string& source);
 

@@ -78,18 +78,6 @@ Expected<void> check_options(const ShowOptions& options, const transport::Addres
     return {};
 }
 
-/// Host, link and device hold a frame each, and the device its pages; the lattice and the volume come on top.
-Expected<void> check_display_fits(const DisplayDescription& display) {
-    constexpr std::uint64_t kFrames = 8;
-    constexpr std::uint64_t kBytesAColumn = 64;
-    const std::uint64_t columns =
-        frame_pixels(display) / std::max<std::uint64_t>(1, display.kind == DisplayKind::RotatingPanel
-                                                               ? display.panels[0].rows
-                                                               : display.slices);
-    return check_memory(kFrames * frame_bytes(display) + columns * kBytesAColumn + frame_pixels(display) / 8,
-                        fmt::format("the display {}", display.name.view()));
-}
-
 }  // namespace
 
 Expected<void> show(const ShowOptions& options) {

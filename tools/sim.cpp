@@ -1,5 +1,4 @@
 // sim: a display in a program of its own, for clients over tcp. One at a time; the picture outlives its client.
-#include <chrono>
 #include <cstdio>
 #include <random>
 
@@ -8,8 +7,10 @@
 #include "driver/display/toml.h"
 #include "sim/simulator.h"
 #include "sim/statistics.h"
+#include "tools/clock.h"
 #include "tools/commands.h"
 #include "tools/console.h"
+#include "tools/placement.h"
 #include "tools/stop.h"
 #include "transport/address.h"
 #include "transport/tcp.h"
@@ -19,11 +20,6 @@ namespace {
 
 /// A client that says nothing for so long makes room for the next one. A host that is there sends twice a second.
 constexpr std::uint64_t kPatience_ns = 5'000'000'000;
-
-std::uint64_t clock_ns() {
-    return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
-                                      std::chrono::nanoseconds(1));
-}
 
 /// Lines for people, or objects for programs, at once: a reader at a pipe sees them when they happen.
 class Events {
@@ -83,6 +79,7 @@ Expected<void> sim(const SimOptions& options) {
     }
     const Expected<DisplayDescription> display = load_display(options.display);
     if (!display) return tl::unexpected(display.error());
+    if (const auto fits = check_display_fits(*display); !fits) return fits;
     // As a device draws one at each start: hosts that come again see that this is another run.
     const sim::SimulatorOptions simulated{.boot_nonce = std::random_device{}()};
     Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{}, simulated);

@@ -87,7 +87,8 @@ void Session::Impl::fail_no_answer() {
     if (statistics.packets_ignored > 0) {
         message += fmt::format(" ({} packets came that are not of this session)", statistics.packets_ignored);
     }
-    fail_with(Status::Closed, message + "; check that a display or xorvox sim is at the other end");
+    fail_with(Status::Closed,
+              message + "; check that a display or xorvox sim is at the other end, and not busy with another host");
 }
 
 /// Begins with a device of these capabilities.

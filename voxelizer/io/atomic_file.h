@@ -41,7 +41,7 @@ private:
 
     std::string shown_;   // The path as messages have it.
     std::string target_;  // The path with links followed.
-    std::string name_;    // That the file has for now; empty when there is none to remove.
+    std::string name_;    // The temporary one; empty when there is none to remove.
     int descriptor_ = -1;
 };
 
