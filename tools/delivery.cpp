@@ -1,5 +1,6 @@
 #include "tools/delivery.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <random>
 #include <utility>
@@ -23,8 +24,11 @@ namespace {
 
 /// A display remembers the session before, so each gets another id; that of a recording follows from its frame, so that
 /// equal frames give equal files.
-host::SessionOptions session_options(bool two_way, std::span<const std::byte> frame) {
+host::SessionOptions session_options(bool two_way, const DisplayDescription& display,
+                                     std::span<const std::byte> frame) {
     host::SessionOptions options;
+    // A slow display shows a frame a cycle after it came.
+    options.present_timeout_ns = std::max(options.present_timeout_ns, static_cast<std::int64_t>(2 * cycle_ns(display)));
     const std::uint32_t number = two_way ? std::random_device()() : wire::crc32c(frame);
     options.session = static_cast<std::uint16_t>(number % 0xffff + 1);
     return options;
@@ -42,7 +46,7 @@ Expected<Delivery> show_in_process(const ShowOptions& options, const DisplayDesc
     auto [host_end, device_end] = transport::make_loopback();
     Expected<sim::Simulator> simulator = sim::Simulator::make(display, device_end.get());
     if (!simulator) return tl::unexpected(simulator.error());
-    host::Session session(host_end.get(), display);
+    host::Session session(host_end.get(), display, session_options(true, display, frame));
 
     std::uint64_t now_ns = 0;
     bool submitted = false;
@@ -51,8 +55,10 @@ Expected<Delivery> show_in_process(const ShowOptions& options, const DisplayDesc
         const Status device_moved = simulator->poll(now_ns);
         if (session.state() == host::SessionState::Failed) return tl::unexpected(session.error());
         if (!submitted) submitted = session.submit(frame) == Status::Ok;
-        if (host_moved == Status::WouldBlock && device_moved == Status::WouldBlock)
-            now_ns = simulator->next_boundary_ns();
+        if (host_moved == Status::WouldBlock && device_moved == Status::WouldBlock) {
+            constexpr std::uint64_t kStep_ns = 100'000'000;  // shorter than anybody's patience
+            now_ns = std::min(simulator->next_boundary_ns(), now_ns + kStep_ns);
+        }
     }
 
     Delivery delivery{session.statistics(), std::nullopt, 0.0};
@@ -93,10 +99,10 @@ Expected<Delivery> send_over(Link link, const ShowOptions& options, const Displa
         fmt::print("{} has no way back: keyframes only, and the display is taken to be as {} says\n", options.to,
                    display.name.view());
     }
-    const Progress progress("sending to " + options.to);
+    std::optional<Progress> progress("sending to " + options.to);
     // Nobody answers a recording: its time is 0, so that equal frames give equal files.
     const auto now_ns = [two_way] { return two_way ? clock_ns() : 0; };
-    host::Session session(link, display, session_options(two_way, frame));
+    host::Session session(link, display, session_options(two_way, display, frame));
     bool submitted = false;
     const auto done = [&] {
         return submitted && session.idle() && (!two_way || session.statistics().frames_presented > 0);
@@ -115,8 +121,9 @@ Expected<Delivery> send_over(Link link, const ShowOptions& options, const Displa
     if (two_way && session.device_status().fault == wire::Fault::Scan) {
         warn(options.to + ": the display reports a fault of its scanner and stays dark until that is cleared");
     }
+    progress.reset();
     if (options.hold) {
-        fmt::print("{} shows it; Ctrl-C ends\n", options.to);
+        if (!options.json) fmt::print("{} shows it; Ctrl-C ends\n", options.to);
         std::fflush(stdout);
         while (!asked_to_stop()) {
             const Status moved = session.poll(now_ns());

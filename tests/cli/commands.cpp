@@ -85,6 +85,17 @@ TEST_CASE("with --hold a display stays lit until the host is interrupted", "[cli
     CHECK(display.terminate() == 0);
 }
 
+TEST_CASE("a display that refreshes once in 100 seconds is waited for", "[cli]") {
+    const Folder folder;
+    const std::string slow =
+        folder.file("slow.toml",
+                    "name = \"slow\"\nkind = \"stacked-planes\"\nformat = \"mono1\"\nslices = 4\n"
+                    "plane_pitch_mm = 1.0\ncycles_per_second = 0.01\n[[panel]]\ncolumns = 4\nrows = 4\n"
+                    "column_pitch_mm = 1.0\nrow_pitch_mm = 1.0\n");
+    const Outcome outcome = succeeds({"show", folder.file("cube.obj", cube_obj(1.0)), "--display", slow, "--json"});
+    CHECK_THAT(outcome.out, Catch::Contains("\"pixels_lit\": 64"));
+}
+
 TEST_CASE("info writes JSON without infinities", "[cli]") {
     const Folder folder;
     const std::string out = succeeds({"info", folder.file("huge.obj", cube_obj(1e200)), "--json"}).out;
