@@ -65,6 +65,22 @@ struct BasicBitVolumeView {
 using BitVolumeView = BasicBitVolumeView<std::uint64_t>;
 using ConstBitVolumeView = BasicBitVolumeView<const std::uint64_t>;
 
+/// Gives memory that begins at a cache line and, where the system can, lies in huge pages: a large volume then costs
+/// one page fault for 2 MiB instead of 512. Hosted; throws std::bad_alloc.
+std::uint64_t* allocate_words(std::size_t words);
+void release_words(std::uint64_t* first, std::size_t words);
+
+/// The same for std::vector<std::uint64_t>.
+template <class Word>
+struct WordAllocator {
+    static_assert(sizeof(Word) == sizeof(std::uint64_t));
+    using value_type = Word;
+
+    Word* allocate(std::size_t words) { return allocate_words(words); }
+    void deallocate(Word* first, std::size_t words) { release_words(first, words); }
+    friend bool operator==(const WordAllocator&, const WordAllocator&) = default;
+};
+
 /// A volume that owns its words, all clear at first. Hosted only; throws std::bad_alloc as a vector does.
 class BitVolume {
 public:
@@ -80,7 +96,7 @@ public:
     friend bool operator==(const BitVolume&, const BitVolume&) = default;
 
 private:
-    std::vector<std::uint64_t> words_;
+    std::vector<std::uint64_t, WordAllocator<std::uint64_t>> words_;
     std::uint32_t nx_ = 0;
     std::uint32_t ny_ = 0;
     std::uint32_t nz_ = 0;

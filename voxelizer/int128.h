@@ -26,6 +26,29 @@ struct TwoLimbs {
     }
 };
 
+constexpr TwoLimbs operator-(TwoLimbs a, TwoLimbs b) {
+    return a + -b;
+}
+constexpr bool is_negative(TwoLimbs a) {
+    return a.hi < 0;
+}
+/// The largest integer not above a / 2^shift; 0 < shift < 64.
+constexpr TwoLimbs floor_shift(TwoLimbs a, std::uint32_t shift) {
+    return {a.lo >> shift | static_cast<std::uint64_t>(a.hi) << (64 - shift), a.hi >> shift};
+}
+/// `a`, which must lie within 63 bits and a sign.
+constexpr std::int64_t narrow(TwoLimbs a) {
+    return static_cast<std::int64_t>(a.lo);
+}
+/// `a` to within one part in 2^51.
+constexpr double to_double(TwoLimbs a) {
+    // By its size: near zero the limbs of a negative number cancel.
+    const TwoLimbs size = is_negative(a) ? -a : a;
+    const double value =
+        static_cast<double>(static_cast<std::uint64_t>(size.hi)) * 0x1p64 + static_cast<double>(size.lo);
+    return is_negative(a) ? -value : value;
+}
+
 namespace detail {
 
 constexpr std::uint64_t magnitude(std::int64_t a) {
@@ -81,6 +104,18 @@ __extension__ typedef __int128 Int128;
 
 constexpr Int128 multiply(std::int64_t a, std::int64_t b) {
     return Int128{a} * b;
+}
+constexpr bool is_negative(Int128 a) {
+    return a < 0;
+}
+constexpr Int128 floor_shift(Int128 a, std::uint32_t shift) {
+    return a >> shift;
+}
+constexpr std::int64_t narrow(Int128 a) {
+    return static_cast<std::int64_t>(a);
+}
+constexpr double to_double(Int128 a) {
+    return static_cast<double>(a);
 }
 constexpr std::int64_t floor_divide(Int128 n, std::int64_t d) {
     const Int128 quotient = n / d;

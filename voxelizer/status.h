@@ -20,6 +20,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     Corrupt,          ///< The bytes do not say what they should: bad magic, checksum, length or code.
     Timeout,          ///< The time allowed has passed.
     Refused,          ///< The peer is there and says no.
+    Cancelled,        ///< The caller asked to stop; outputs are incomplete.
 };
 
 /// The name of `status`, as written above. Never null; static storage.
@@ -35,6 +36,7 @@ constexpr const char* to_string(Status status) {
         case Status::Corrupt: return "Corrupt";
         case Status::Timeout: return "Timeout";
         case Status::Refused: return "Refused";
+        case Status::Cancelled: return "Cancelled";
     }
     return "unknown status";
 }

@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <new>
 #include <stdexcept>
-#include <vector>
+#include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -56,37 +57,73 @@ bool exceeds_memory(double bytes) {
     return pages > 0 && page_bytes > 0 && bytes > static_cast<double>(pages) * static_cast<double>(page_bytes);
 }
 
+std::string describe_region_fault(const Lattice& lattice, const Region& region) {
+    return fmt::format(
+        "a region of {} x {} x {} samples from sample ({}, {}, {}) is not inside a lattice of {} x {} x {}: every side "
+        "must be at least 1, and its end within the lattice",
+        region.size.x, region.size.y, region.size.z, region.begin.x, region.begin.y, region.begin.z, lattice.nx,
+        lattice.ny, lattice.nz);
+}
+
+std::string describe_memory(const Lattice& lattice, double volume_bytes, double work_bytes) {
+    constexpr double kGiB = 1 << 30;
+    return fmt::format(
+        "a lattice of {} x {} x {} samples takes {:.1f} GiB, and {:.1f} GiB to work in, which is more than there is: "
+        "take a smaller one",
+        lattice.nx, lattice.ny, lattice.nz, volume_bytes / kGiB, work_bytes / kGiB);
+}
+
 }  // namespace
 
-Expected<BitVolume> voxelize(const MeshView& mesh, const Lattice& lattice, SolidReport* report) {
-    if (const Status status = validate(lattice); status != Status::Ok) {
-        return fail(describe_lattice_fault(lattice, status));
+Error describe_failure(Status status, const MeshView& mesh, const Lattice& lattice, const Region& region,
+                       const SolidReport& report) {
+    switch (status) {
+        case Status::Cancelled: return {"stopped before it was done"};
+        case Status::OutOfMemory: return {"the working memory is not to be had: take a smaller lattice or mesh"};
+        case Status::Unsupported: return {"this method takes regular lattices, without tables"};
+        default: break;
     }
-    const std::size_t scratch_bytes = solid_scratch_bytes(mesh, lattice);
-    const double volume_bytes = 8.0 * static_cast<double>(volume_words(lattice.nx, lattice.ny, lattice.nz));
-    const auto out_of_memory = [&] {
-        return fail(fmt::format(
-            "a lattice of {} x {} x {} samples takes {:.1f} GiB, more than there is: take a smaller one", lattice.nx,
-            lattice.ny, lattice.nz, (volume_bytes + static_cast<double>(scratch_bytes)) / (1 << 30)));
-    };
-    if (exceeds_memory(volume_bytes + static_cast<double>(scratch_bytes))) return out_of_memory();
+    if (const Status fault = validate(lattice); fault != Status::Ok) return {describe_lattice_fault(lattice, fault)};
+    if (!is_inside(region, lattice)) return {describe_region_fault(lattice, region)};
+    std::size_t bad_index = 0;
+    if (validate(mesh, &bad_index) != Status::Ok) return {describe_mesh_fault(mesh, bad_index)};
+    if (status == Status::OutOfRange) return {describe_vertex_fault(mesh, report.bad_vertex)};
+    return {fmt::format("a volume of another shape than {} x {} x {} was given for the result", region.size.x,
+                        region.size.y, region.size.z)};
+}
+
+Error describe_failure(Status status, const MeshView& mesh, const Lattice& lattice, const SolidReport& report) {
+    return describe_failure(status, mesh, lattice, whole(lattice), report);
+}
+
+Expected<BitVolume> voxelize(const MeshView& mesh, const Lattice& lattice, SolidReport* report) {
+    return voxelize(mesh, lattice, SolidOptions{}, report);
+}
+
+Expected<BitVolume> voxelize(const MeshView& mesh, const Lattice& lattice, const SolidOptions& options,
+                             SolidReport* report) {
     SolidReport own_report;
     SolidReport& found = report == nullptr ? own_report : *report;
+    const auto failed = [&](Status status) { return tl::unexpected(describe_failure(status, mesh, lattice, found)); };
+    if (const Status status = validate(lattice); status != Status::Ok) return failed(status);
+    const double volume_bytes = 8.0 * static_cast<double>(volume_words(lattice.nx, lattice.ny, lattice.nz));
+    double work_bytes = 0.0;
+    const auto out_of_memory = [&] { return fail(describe_memory(lattice, volume_bytes, work_bytes)); };
     try {
-        struct alignas(16) Block {
-            std::byte bytes[16];
-        };
-        std::vector<Block> scratch((scratch_bytes + sizeof(Block) - 1) / sizeof(Block));
+        SolidVoxelizer voxelizer(options);
+        work_bytes = static_cast<double>(voxelizer.memory_bytes(mesh.positions.size(), lattice));
+        if (exceeds_memory(volume_bytes + work_bytes)) return out_of_memory();
+        if (const Status status = voxelizer.set_mesh(mesh, &found); status != Status::Ok) return failed(status);
+        if (const Status status = voxelizer.set_lattice(lattice); status != Status::Ok) return failed(status);
         BitVolume volume(lattice);
-        switch (voxelize_solid(mesh, lattice, std::as_writable_bytes(std::span(scratch)), volume.view(), &found)) {
-            case Status::Ok: return volume;
-            case Status::OutOfRange: return fail(describe_vertex_fault(mesh, found.bad_vertex));
-            default: return fail(describe_mesh_fault(mesh, found.bad_index));
-        }
+        if (const Status status = voxelizer.solid(volume.view(), &found); status != Status::Ok) return failed(status);
+        return volume;
     } catch (const std::bad_alloc&) {
         return out_of_memory();
     } catch (const std::length_error&) {
         return out_of_memory();
+    } catch (const std::system_error& error) {
+        return fail(fmt::format("{} threads cannot be started ({}): take fewer", options.threads, error.what()));
     }
 }
 

@@ -22,6 +22,9 @@
 //            The magic ends in \r\n, which transfers that mangle line ends destroy.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <stop_token>
 #include <string>
 
 #include "voxelizer/bit_volume.h"
@@ -34,10 +37,43 @@ namespace xorvox::io {
 /// name before it; an error that says so if not. Lets a program refuse before it computes.
 Expected<void> check_volume_path(const std::string& path);
 
-/// Writes `volume` to `path` in the format of its extension, whole or not at all (voxelizer/io/atomic_file.h says what
-/// paths may be written to). `lattice` must be regular, pass validate() and have the shape of `volume`. Errors: these
-/// broken, an extension that check_volume_path() refuses, a lattice that .binvox cannot tell, everything the file
-/// system says. Different files may be written by different threads.
-Expected<void> write_volume(const std::string& path, ConstBitVolumeView volume, const Lattice& lattice);
+/// The axis along which the slabs of a volume lie in its file.
+enum class SlabAxis : std::uint8_t { X, Z };
+
+/// Writes a volume slab by slab, so that it is never whole in memory. The file is the one that write_volume() writes,
+/// and like that one appears whole, on commit(), or not at all. One thread at a time; different objects are
+/// independent.
+class VolumeWriter {
+public:
+    /// Begins the file of a volume on `lattice`, which must be regular, pass validate() and be one that the format can
+    /// tell; errors: these broken, an extension that check_volume_path() refuses, everything the file system says
+    /// (voxelizer/io/atomic_file.h says what paths may be written to). After a stop request write() fails.
+    static Expected<VolumeWriter> create(const std::string& path, const Lattice& lattice, std::stop_token stop = {});
+
+    VolumeWriter(VolumeWriter&&) noexcept;
+    VolumeWriter& operator=(VolumeWriter&&) noexcept;
+    ~VolumeWriter();
+
+    /// .nrrd and .bits lie in slabs of layers along z, .binvox in slabs of planes along x.
+    SlabAxis slab_axis() const;
+
+    /// Adds a slab: the next planes along slab_axis(), the first of which is number `first` of the volume, as wide as
+    /// the lattice along the other axes. Refused when it does not follow the slab before it. After an error, destroy
+    /// the object.
+    Expected<void> write(ConstBitVolumeView slab, std::uint32_t first);
+
+    /// Gives the file its name. Call once, after the last slab: a file that lacks planes is refused.
+    Expected<void> commit();
+
+private:
+    struct State;
+    explicit VolumeWriter(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// Writes `volume` to `path` in the format of its extension, whole or not at all: VolumeWriter with one slab, and its
+/// errors. `volume` must have the shape of `lattice`.
+Expected<void> write_volume(const std::string& path, ConstBitVolumeView volume, const Lattice& lattice,
+                            std::stop_token stop = {});
 
 }  // namespace xorvox::io

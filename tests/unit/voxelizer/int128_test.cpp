@@ -1,5 +1,6 @@
 #include "voxelizer/int128.h"
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -46,6 +47,35 @@ TEST_CASE("two-limb products, sums and negations equal the compiler's") {
         const Int128 sum = multiply(a, b) / 2 + multiply(c, d) / 2;
         REQUIRE(limbs(multiply(a, b) / 2) + limbs(multiply(c, d) / 2) == limbs(sum));
     }
+}
+
+TEST_CASE("two-limb differences, shifts and signs equal the compiler's") {
+    Numbers number;
+    for (int i = 0; i < 100'000; ++i) {
+        const Int128 a = multiply(number(), number()) / 2;
+        const Int128 b = multiply(number(), number()) / 2;
+        REQUIRE(limbs(a) - limbs(b) == limbs(a - b));
+        REQUIRE(is_negative(limbs(a)) == (a < 0));
+        REQUIRE(is_negative(a) == (a < 0));
+        for (const std::uint32_t shift : {1u, 8u, 20u, 63u}) {
+            REQUIRE(floor_shift(limbs(a), shift) == limbs(a >> shift));
+            REQUIRE(floor_shift(a, shift) == a >> shift);
+        }
+        const std::int64_t small = number();
+        REQUIRE(narrow(limbs(small)) == small);
+        REQUIRE(narrow(multiply(small, 1)) == small);
+    }
+}
+
+TEST_CASE("two-limb numbers become doubles to within one part in 2^51") {
+    Numbers number;
+    for (int i = 0; i < 100'000; ++i) {
+        const Int128 a = multiply(number(), number()) / (i % 2 == 0 ? 1 : number() | 1);
+        const double exact = to_double(a);
+        REQUIRE(std::abs(to_double(limbs(a)) - exact) <= std::abs(exact) * 0x1p-51);
+    }
+    CHECK(to_double(limbs(-1)) == -1.0);
+    CHECK(to_double(limbs(0)) == 0.0);
 }
 
 TEST_CASE("two-limb division rounds down as the compiler's does") {

@@ -181,10 +181,26 @@ std::string difference(const BitVolume& got, const BitVolume& expected) {
     return "the padding differs";
 }
 
+BitVolume reference(const MeshView& mesh, const Lattice& lattice) {
+    struct alignas(16) Block {
+        std::byte bytes[16];
+    };
+    std::vector<Block> scratch(solid_scratch_bytes(mesh, lattice) / sizeof(Block) + 1);
+    BitVolume volume(lattice);
+    const Status status = voxelize_solid(mesh, lattice, std::as_writable_bytes(std::span(scratch)), volume.view());
+    if (status != Status::Ok) throw std::runtime_error(std::string("voxelize_solid: ") + to_string(status));
+    return volume;
+}
+
 BitVolume voxelized(const MeshView& mesh, const Lattice& lattice) {
-    Expected<BitVolume> volume = voxelize(mesh, lattice);
-    if (!volume) throw std::runtime_error(volume.error().message);
-    return std::move(*volume);
+    BitVolume expected = reference(mesh, lattice);
+    for (const Kernel kernel : available_kernels()) {
+        const Expected<BitVolume> got = voxelize(mesh, lattice, SolidOptions{.kernel = kernel});
+        if (!got) throw std::runtime_error(std::string(to_string(kernel)) + ": " + got.error().message);
+        const std::string differs = difference(*got, expected);
+        if (!differs.empty()) throw std::runtime_error(std::string(to_string(kernel)) + ": " + differs);
+    }
+    return expected;
 }
 
 }  // namespace xorvox::test

@@ -20,7 +20,11 @@ BitVolume oracle(const MeshView& mesh, const Lattice& lattice, Ray ray = Ray::Z)
 /// What distinguishes two volumes, in words; empty when they are equal, padding included.
 std::string difference(const BitVolume& got, const BitVolume& expected);
 
-/// The bits of voxelize() for input that it must accept; throws std::runtime_error with its message otherwise.
+/// The bits of voxelize_solid(), which must accept the input; throws std::runtime_error otherwise.
+BitVolume reference(const MeshView& mesh, const Lattice& lattice);
+
+/// The same, and the bits of SolidVoxelizer with every kernel of this machine are equal; throws std::runtime_error that
+/// says which is not.
 BitVolume voxelized(const MeshView& mesh, const Lattice& lattice);
 
 }  // namespace xorvox::test

@@ -5,25 +5,13 @@
 
 #include "meshes.h"
 #include "oracle.h"
+#include "tables.h"
 #include "tests/catch.h"
 
 using namespace xorvox;
 using namespace xorvox::test;
 
 namespace {
-
-/// Owns the tables of a lattice.
-struct Tables {
-    std::uint32_t nx = 0;
-    std::uint32_t ny = 0;
-    std::vector<glm::dvec2> plan;
-    std::vector<double> z0;
-    std::vector<double> z;
-
-    Lattice view() const {
-        return {.nx = nx, .ny = ny, .nz = static_cast<std::uint32_t>(z.size()), .plan = plan, .z0 = z0, .z = z};
-    }
-};
 
 /// Two panels back to back on a rotor: LED columns at radii offset, offset + 1, … in `slices` directions.
 Tables rotor(std::uint32_t radii, std::uint32_t slices, double offset) {

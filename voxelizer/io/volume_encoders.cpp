@@ -1,0 +1,201 @@
+#include "voxelizer/io/volume_encoders.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace xorvox::io {
+namespace {
+
+// The voxels of a byte of the volume, one byte each.
+constexpr auto kSpread = [] {
+    std::array<std::array<char, 8>, 256> spread{};
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+        for (std::size_t bit = 0; bit < 8; ++bit) spread[byte][bit] = static_cast<char>((byte >> bit) & 1);
+    }
+    return spread;
+}();
+
+class NrrdEncoder final : public VolumeEncoder {
+public:
+    explicit NrrdEncoder(const Lattice& lattice) : lattice_(lattice) {}
+
+    Expected<void> begin(AtomicFile& file) override {
+        const glm::dvec3 centre = sample_position(lattice_, 0, 0, 0);
+        const glm::dvec3 pitch = lattice_.pitch;
+        return file.write(fmt::format(
+            "NRRD0004\n"
+            "type: uint8\n"
+            "dimension: 3\n"
+            "space dimension: 3\n"
+            "sizes: {} {} {}\n"
+            "space directions: ({},0,0) (0,{},0) (0,0,{})\n"
+            "kinds: domain domain domain\n"
+            "endian: little\n"
+            "encoding: raw\n"
+            "space origin: ({},{},{})\n"
+            "\n",
+            lattice_.nx, lattice_.ny, lattice_.nz, pitch.x, pitch.y, pitch.z, centre.x, centre.y, centre.z));
+    }
+
+    Expected<void> add(AtomicFile& file, ConstBitVolumeView slab, std::uint32_t z) override {
+        const std::size_t layer_bytes = std::size_t{slab.nx} * slab.ny;
+        layer_.resize(layer_bytes + row_words(slab.nx) * 64);  // The last row's padding runs over.
+        char* to = layer_.data();
+        for (std::uint32_t y = 0; y < slab.ny; ++y, to += slab.nx) {
+            const auto bytes = std::as_bytes(slab.row(y, z));
+            for (std::size_t i = 0; i < bytes.size(); ++i) {
+                std::memcpy(to + 8 * i, kSpread[std::to_integer<std::size_t>(bytes[i])].data(), 8);
+            }
+        }
+        return file.write({layer_.data(), layer_bytes});
+    }
+
+    Expected<void> end(AtomicFile&) override { return {}; }
+
+private:
+    Lattice lattice_;
+    std::vector<char> layer_;
+};
+
+class BitsEncoder final : public VolumeEncoder {
+public:
+    explicit BitsEncoder(const Lattice& lattice) {
+        header_.nx = lattice.nx;
+        header_.ny = lattice.ny;
+        header_.nz = lattice.nz;
+        header_.origin = {lattice.origin.x, lattice.origin.y, lattice.origin.z};
+        header_.pitch = {lattice.pitch.x, lattice.pitch.y, lattice.pitch.z};
+    }
+
+    Expected<void> begin(AtomicFile& file) override {
+        const auto bytes = std::bit_cast<std::array<char, sizeof(Header)>>(header_);
+        return file.write({bytes.data(), bytes.size()});
+    }
+    Expected<void> add(AtomicFile& file, ConstBitVolumeView slab, std::uint32_t z) override {
+        const std::size_t layer_words = row_words(slab.nx) * slab.ny;
+        const auto layer = slab.words.subspan(z * layer_words, layer_words);
+        return file.write({reinterpret_cast<const char*>(layer.data()), layer.size_bytes()});
+    }
+    Expected<void> end(AtomicFile&) override { return {}; }
+
+private:
+    struct Header {
+        std::array<char, 8> magic{'X', 'V', 'B', 'I', 'T', 'S', '\r', '\n'};
+        std::uint32_t version = 1;
+        std::uint32_t nx, ny, nz;
+        std::array<double, 3> origin, pitch;
+    };
+    static_assert(sizeof(Header) == 72 && offsetof(Header, nx) == 12 && offsetof(Header, origin) == 24);
+
+    Header header_;
+};
+
+// Runs of equal voxels as binvox has them: a byte 0 or 1, a byte for the length.
+class Runs {
+public:
+    Expected<void> add(AtomicFile& file, bool value, std::uint64_t length) {
+        if (value == value_) {
+            length_ += length;
+            return {};
+        }
+        auto ok = end_run(file);
+        value_ = value;
+        length_ = length;
+        return ok;
+    }
+    Expected<void> end(AtomicFile& file) {
+        if (auto ok = end_run(file); !ok) return ok;
+        return flush(file);
+    }
+
+private:
+    static constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+
+    Expected<void> end_run(AtomicFile& file) {
+        while (length_ > 0) {
+            const std::uint64_t part = std::min<std::uint64_t>(length_, 255);
+            buffer_ += static_cast<char>(value_);
+            buffer_ += static_cast<char>(part);
+            length_ -= part;
+            if (buffer_.size() >= kBufferBytes) {
+                if (auto ok = flush(file); !ok) return ok;
+            }
+        }
+        return {};
+    }
+    Expected<void> flush(AtomicFile& file) {
+        auto ok = file.write(buffer_);
+        buffer_.clear();
+        return ok;
+    }
+
+    std::string buffer_;
+    bool value_ = false;
+    std::uint64_t length_ = 0;
+};
+
+class BinvoxEncoder final : public VolumeEncoder {
+public:
+    explicit BinvoxEncoder(const Lattice& lattice)
+        : lattice_(lattice), side_(std::max({lattice.nx, lattice.ny, lattice.nz})) {}
+
+    Expected<void> begin(AtomicFile& file) override {
+        return file.write(fmt::format("#binvox 1\ndim {0} {0} {0}\ntranslate {1} {2} {3}\nscale {4}\ndata\n", side_,
+                                      lattice_.origin.x, lattice_.origin.y, lattice_.origin.z,
+                                      lattice_.pitch.x * static_cast<double>(side_)));
+    }
+
+    Expected<void> add(AtomicFile& file, ConstBitVolumeView slab, std::uint32_t x) override {
+        // 64 planes at a time: their words, gathered once, are read again for each x.
+        if (x % 64 == 0) gather(slab, x / 64);
+        for (std::uint32_t z = 0; z < slab.nz; ++z) {
+            for (std::uint32_t y = 0; y < slab.ny; ++y) {
+                const bool value = (words_[std::size_t{z} * slab.ny + y] >> (x % 64)) & 1;
+                if (auto ok = runs_.add(file, value, 1); !ok) return ok;
+            }
+            if (auto ok = runs_.add(file, false, side_ - slab.ny); !ok) return ok;
+        }
+        return runs_.add(file, false, (side_ - slab.nz) * side_);
+    }
+
+    Expected<void> end(AtomicFile& file) override {
+        if (auto ok = runs_.add(file, false, (side_ - lattice_.nx) * side_ * side_); !ok) return ok;
+        return runs_.end(file);
+    }
+
+private:
+    void gather(ConstBitVolumeView slab, std::size_t word) {
+        words_.resize(std::size_t{slab.ny} * slab.nz);
+        const std::size_t words_a_row = row_words(slab.nx);
+        for (std::size_t row = 0; row < words_.size(); ++row) words_[row] = slab.words[row * words_a_row + word];
+    }
+
+    Lattice lattice_;
+    std::uint64_t side_;
+    std::vector<std::uint64_t> words_;
+    Runs runs_;
+};
+
+}  // namespace
+
+std::unique_ptr<VolumeEncoder> nrrd_encoder(const Lattice& lattice) {
+    return std::make_unique<NrrdEncoder>(lattice);
+}
+
+std::unique_ptr<VolumeEncoder> bits_encoder(const Lattice& lattice) {
+    return std::make_unique<BitsEncoder>(lattice);
+}
+
+std::unique_ptr<VolumeEncoder> binvox_encoder(const Lattice& lattice) {
+    return std::make_unique<BinvoxEncoder>(lattice);
+}
+
+}  // namespace xorvox::io

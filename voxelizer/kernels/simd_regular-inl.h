@@ -1,0 +1,130 @@
+// Triangles on a regular plan: those that cover no column are dropped by their keys. Compiled once for each
+// instruction set.
+#if defined(XORVOX_KERNELS_SIMD_REGULAR_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef XORVOX_KERNELS_SIMD_REGULAR_INL_H_
+#undef XORVOX_KERNELS_SIMD_REGULAR_INL_H_
+#else
+#define XORVOX_KERNELS_SIMD_REGULAR_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+#include "voxelizer/kernels/direct.h"
+#include "voxelizer/kernels/kernel_table.h"
+#include "voxelizer/kernels/simd_rows-inl.h"
+#include "voxelizer/kernels/simd_small-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace xorvox::kernels::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Triangles of a block that may cover a column: number, lowest key, size of the box.
+struct Candidates {
+    static constexpr std::size_t kCapacity = kBlockTriangles + HWY_MAX_BYTES / sizeof(std::uint32_t);
+    std::uint32_t triangle[kCapacity];
+    std::uint32_t low[kCapacity];
+    std::uint32_t size[kCapacity];
+    std::size_t count = 0;
+};
+
+inline void find_candidates(const Vertices& vertices, const Triangles& triangles, std::size_t first,
+                            Candidates& candidates) {
+    const hn::ScalableTag<std::uint32_t> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::Repartition<std::uint16_t, decltype(d)> dh;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto lower_half = hn::Set(d, 0xffff);
+    const auto zero = hn::Zero(d);
+    const auto* const keys = reinterpret_cast<const std::int32_t*>(vertices.keys);
+    std::size_t n = 0;
+    std::size_t t = first;
+    for (; t + lanes <= triangles.count; t += lanes) {
+        auto i0 = zero;
+        auto i1 = zero;
+        auto i2 = zero;
+        hn::LoadInterleaved3(d, triangles.indices + 3 * t, i0, i1, i2);
+        const auto k0 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i0)));
+        const auto k1 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i1)));
+        const auto k2 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i2)));
+        const auto low = hn::Min(hn::Min(k0, k1), k2);
+        const auto size = hn::BitCast(d, hn::Sub(hn::Max(hn::Max(k0, k1), k2), low));
+        const auto smaller = hn::Min(hn::And(size, lower_half), hn::ShiftRight<16>(size));
+        const auto covers = hn::Ne(smaller, zero);
+        if (hn::AllFalse(d, covers)) continue;
+        hn::StoreU(hn::Compress(hn::Iota(d, static_cast<std::uint32_t>(t)), covers), d, candidates.triangle + n);
+        hn::StoreU(hn::Compress(hn::BitCast(d, low), covers), d, candidates.low + n);
+        hn::StoreU(hn::Compress(size, covers), d, candidates.size + n);
+        n += hn::CountTrue(d, covers);
+    }
+    for (; t < triangles.count; ++t) {
+        const std::uint32_t* const index = triangles.indices + 3 * t;
+        const KeyBox box(vertices.keys[index[0]], vertices.keys[index[1]], vertices.keys[index[2]]);
+        if (box.is_empty()) continue;
+        candidates.triangle[n] = static_cast<std::uint32_t>(t);
+        candidates.low[n] = box.y() << 16 | box.x();
+        candidates.size[n] = box.height() << 16 | box.width();
+        ++n;
+    }
+    candidates.count = n;
+}
+
+inline bool cross_regular(const RegularPlan& plan, const Vertices& vertices, const Triangles& triangles,
+                          BlockProgress& progress, SmallTriangles& small, Events& events) {
+    const hn::CappedTag<std::int32_t, 4> d4;
+    const double pitch = static_cast<double>(std::int64_t{1} << plan.columns.shift());
+    const auto most =
+        static_cast<std::uint32_t>(std::min(kExactDepthReach / pitch, static_cast<double>(SmallTriangles::kMaxSide)));
+    Candidates candidates;
+    find_candidates(vertices, triangles, progress.triangle, candidates);
+    RowCrossing rows(plan);
+    const std::size_t resumed = progress.triangle;
+    for (std::size_t i = 0; i < candidates.count; ++i) {
+        const std::uint32_t* const index = triangles.indices + 3 * candidates.triangle[i];
+        const KeyBox box(candidates.low[i], candidates.size[i]);
+        progress.triangle = candidates.triangle[i];
+        if (progress.triangle != resumed) progress.part = 0;
+        if (box.width() <= most && box.height() <= most) {
+            const std::uint32_t wide = SmallTriangles::side_class(box.width());
+            const std::uint32_t high = SmallTriangles::side_class(box.height());
+            const std::uint32_t width = SmallTriangles::class_side(wide);
+            const std::uint32_t height = SmallTriangles::class_side(high);
+            if (width <= plan.columns.nx() && height <= plan.columns.ny()) {
+                SmallTriangles::Batch& batch = small.batches[high * SmallTriangles::kSides + wide];
+                if (batch.count == SmallTriangles::kBatch) {
+                    if (!events.has_room(std::size_t{SmallTriangles::kBatch} * width * height)) return false;
+                    cross_batch(plan, batch, width, height, events);
+                }
+                const std::uint32_t place = batch.count++;
+                for (int corner = 0; corner < 3; ++corner) {
+                    const auto point = hn::LoadU(d4, &vertices.points[index[corner]].x);
+                    hn::StoreU(point, d4, batch.points[corner] + 4 * place);
+                }
+                // Columns that were added by rounding up are crossed by nothing, but they must be in the region.
+                const std::uint32_t low_x = std::min(box.x(), plan.columns.nx() - width);
+                const std::uint32_t low_y = std::min(box.y(), plan.columns.ny() - height);
+                batch.low[place] = low_y << 16 | low_x;
+                continue;
+            }
+        }
+        const Triangle triangle{vertices.points[index[0]], vertices.points[index[1]], vertices.points[index[2]]};
+        if (!rows.set(triangle, box)) continue;
+        const std::size_t rows_at_once = std::max<std::size_t>(1, Events::kMaxPushed / box.width());
+        while (progress.part < box.height()) {
+            const std::size_t some = std::min(rows_at_once, box.height() - progress.part);
+            if (!events.has_room(some * box.width())) return false;
+            const std::uint32_t y = box.y() + static_cast<std::uint32_t>(progress.part);
+            rows.cross(y, y + static_cast<std::uint32_t>(some), events);
+            progress.part += some;
+        }
+    }
+    progress = {triangles.count, 0};
+    return true;
+}
+
+}  // namespace xorvox::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
