@@ -98,7 +98,7 @@ struct SolidVoxelizer::State {
     Workers workers;
     // One of each for each thread.
     std::vector<Events> events;
-    std::vector<SmallTriangles> small;
+    std::vector<Waiting> waiting;
     std::vector<Part> parts;
     std::vector<std::vector<std::uint64_t>> parities;  // A layer.
     std::vector<char> good;
@@ -131,7 +131,7 @@ SolidVoxelizer::State::State(SolidOptions given)
       table(&kernel_table(options.kernel)),
       workers(std::clamp(options.threads, 1u, kMaxSolidThreads)),
       events(workers.count()),
-      small(workers.count()),
+      waiting(workers.count()),
       parities(workers.count()),
       good(workers.count()) {
     parts.reserve(workers.count());
@@ -215,11 +215,16 @@ bool SolidVoxelizer::State::cross_more(Part& at, unsigned part) {
             at.progress = {};
             if (part == 0) tell(0.7 * at.source.fraction());
         }
-        if (at.block.count == 0) return !lattice.is_regular() || table->cross_small(regular, small[part], events[part]);
-        const bool done =
-            lattice.is_regular()
-                ? table->cross_regular(regular, vertices, at.block, at.progress, small[part], events[part])
-                : table->cross_table(tables, vertices, at.block, at.progress, events[part]);
+        const bool ends = at.block.count == 0;
+        bool done = false;
+        if (lattice.is_regular()) {
+            done = ends ? table->cross_waiting_regular(regular, waiting[part], events[part])
+                        : table->cross_regular(regular, vertices, at.block, at.progress, waiting[part], events[part]);
+        } else {
+            done = ends ? table->cross_waiting_table(tables, waiting[part], events[part])
+                        : table->cross_table(tables, vertices, at.block, at.progress, waiting[part], events[part]);
+        }
+        if (ends) return done;
         if (!done) return false;
         at.progress.triangle = at.block.count;
     }
@@ -233,7 +238,8 @@ Status SolidVoxelizer::State::cross(const MeshView& from, const Flush& flush) {
     parts.clear();
     for (unsigned part = 0; part < workers.count(); ++part) {
         parts.push_back({{from, list, std::span(points).first(keys.size()), part, workers.count()}, {}, {}, false});
-        for (auto& batch : small[part].batches) batch.count = 0;
+        for (auto& batch : waiting[part].small.batches) batch.count = 0;
+        waiting[part].pairs.count = 0;
     }
     while (true) {
         {
@@ -477,8 +483,8 @@ std::size_t SolidVoxelizer::memory_bytes(std::size_t vertices, const Lattice& la
     const std::size_t layer_bytes = volume_words(lattice.nx, lattice.ny, 1) * sizeof(std::uint64_t);
     const std::size_t threads = s.workers.count();
     std::size_t bytes = vertices * (sizeof(glm::ivec3) + sizeof(std::uint32_t)) + sizeof(glm::ivec3);
-    bytes += threads * (EventBins::reserved_bytes(lattice.nz, s.options.event_bytes / threads) + layer_bytes +
-                        sizeof(SmallTriangles));
+    bytes += threads *
+             (EventBins::reserved_bytes(lattice.nz, s.options.event_bytes / threads) + layer_bytes + sizeof(Waiting));
     if (!lattice.is_regular()) {
         bytes += TablePlan::bytes(lattice.column_count()) +
                  lattice.column_count() * (sizeof(glm::dvec2) + sizeof(double)) + lattice.nz * sizeof(double);

@@ -44,56 +44,38 @@ inline void cross_rows_exactly(const RegularPlan& plan, const Triangle& t, std::
     });
 }
 
-/// Pushes the crossing of the column at `place` by a face whose first point above is `rise` above its lowest sample.
-inline void push_at_rise(const TablePlan& plan, std::uint32_t place, std::int64_t rise, Events& events) {
+/// Pushes the crossing of a column, told by its bit, by a face whose first point above is `rise` above its lowest
+/// sample.
+inline void push_at_rise(const TablePlan& plan, std::uint32_t bit, std::int64_t rise, Events& events) {
     if (plan.is_counted_below(rise)) return;
     const std::uint32_t k = plan.first_sample_from(rise);
-    if (k < plan.nz()) events.push(k, plan.bits()[place]);
+    if (k < plan.nz()) events.push(k, bit);
 }
 
-/// The same for a face that may or may not cross the column.
-inline void push_if_crossed(const TablePlan& plan, const Facet& facet, std::uint32_t place, Events& events) {
-    const std::int32_t x = plan.x()[place];
-    const std::int32_t y = plan.y()[place];
-    if (!facet.contains(x, y)) return;
-    push_at_rise(plan, place, facet.first_above(x, y) - plan.z()[place], events);
+/// Pushes the crossing of a column by a face that may or may not cross it.
+inline void push_if_crossed(const TablePlan& plan, const Facet& facet, const TableColumn& column, Events& events) {
+    if (!facet.contains(column.x, column.y)) return;
+    push_at_rise(plan, column.bit, facet.first_above(column.x, column.y) - column.z, events);
 }
 
-/// Crosses a block of triangles with the columns of the bins that they touch. `crossing.set(triangle)` prepares one, or
-/// says that no column crosses it; crossing.cross(begin, end) then looks at that run of places, at most
-/// Events::kMaxPushed, for whose events there is room. False when there is no more.
-template <class Crossing>
-bool cross_bins(const TablePlan& plan, const Vertices& vertices, const Triangles& triangles, BlockProgress& progress,
-                const Events& events, Crossing& crossing) {
-    for (; progress.triangle < triangles.count; ++progress.triangle, progress.part = 0) {
-        const std::uint32_t* const index = triangles.indices + 3 * progress.triangle;
-        const KeyBox box(vertices.keys[index[0]], vertices.keys[index[1]], vertices.keys[index[2]]);
-        // Keys 0 and bins + 1 are the border.
-        const std::uint32_t first_x = std::max(box.x(), 1u);
-        const std::uint32_t last_x = std::min(box.x() + box.width(), plan.bins_x());
-        const std::uint32_t first_y = std::max(box.y(), 1u);
-        const std::uint32_t last_y = std::min(box.y() + box.height(), plan.bins_y());
-        if (first_x > last_x || first_y > last_y) continue;
-        bool is_set = false;
-        std::size_t part = 0;
-        for (std::uint32_t y = first_y; y <= last_y; ++y) {
-            const std::uint32_t* const starts = plan.starts() + std::size_t{y - 1} * plan.bins_x();
-            const std::uint32_t end = starts[last_x];
-            for (std::uint32_t begin = starts[first_x - 1]; begin < end; ++part) {
-                const std::uint32_t stop = std::min<std::uint32_t>(end, begin + Events::kMaxPushed);
-                const std::uint32_t run = begin;
-                begin = stop;
-                if (part < progress.part) continue;
-                if (!is_set &&
-                    !crossing.set({vertices.points[index[0]], vertices.points[index[1]], vertices.points[index[2]]})) {
-                    y = last_y;
-                    break;
-                }
-                is_set = true;
-                if (!events.has_room(stop - run)) return false;
-                crossing.cross(run, stop);
-                progress.part = part + 1;
-            }
+/// Calls visit(part, begin, end) for the runs of places in the bins that a triangle touches, at most Events::kMaxPushed
+/// each, from `first_part` on, until it answers false; whether it never did. `box` is that of the triangle's keys.
+template <class Visit>
+bool visit_runs(const TablePlan& plan, const KeyBox& box, std::size_t first_part, const Visit& visit) {
+    // Keys 0 and cells + 1 are the border.
+    const std::uint32_t first_x = std::max(box.x(), 1u);
+    const std::uint32_t last_x = std::min(box.x() + box.width(), plan.cells_x());
+    const std::uint32_t first_y = std::max(box.y(), 1u);
+    const std::uint32_t last_y = std::min(box.y() + box.height(), plan.cells_y());
+    if (first_x > last_x || first_y > last_y) return true;
+    const std::uint32_t log2 = plan.bin_cells_log2();
+    const std::uint32_t* row = plan.starts() + std::size_t{(first_y - 1) >> log2} * plan.bins_x();
+    std::size_t part = 0;
+    for (std::uint32_t y = (first_y - 1) >> log2; y <= (last_y - 1) >> log2; ++y, row += plan.bins_x()) {
+        const std::uint32_t end = row[((last_x - 1) >> log2) + 1];
+        for (std::uint32_t begin = row[(first_x - 1) >> log2]; begin < end; begin += Events::kMaxPushed, ++part) {
+            const std::uint32_t stop = std::min<std::uint32_t>(end, begin + Events::kMaxPushed);
+            if (part >= first_part && !visit(part, begin, stop)) return false;
         }
     }
     return true;

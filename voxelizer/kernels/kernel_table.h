@@ -16,8 +16,9 @@
 namespace xorvox::kernels {
 
 /// Vertices on the snapping grid. keys[i] packs what a vertex is to the columns: on regular plans the first column and
-/// row at or beyond it, on tables its bin, as (y << 16 | x). Triangles whose keys agree in a half cover no column.
-/// Behind the last point there are kPointSlack bytes that may be read.
+/// row at or beyond it, on tables one more than its cell, between 0 and the number of cells plus one, as (y << 16 | x).
+/// Triangles whose keys agree in a half cover no column. Behind the last point there are kPointSlack bytes that may be
+/// read.
 struct Vertices {
     const glm::ivec3* points = nullptr;
     const std::uint32_t* keys = nullptr;
@@ -62,6 +63,21 @@ static_assert(SmallTriangles::class_side(SmallTriangles::side_class(8)) == 8 &&
               SmallTriangles::class_side(SmallTriangles::side_class(16)) == 16 &&
               SmallTriangles::side_class(SmallTriangles::kMaxSide) + 1 == SmallTriangles::kSides);
 
+/// Columns of a table that wait for others, so that each has a lane, with a triangle that may cross it.
+struct ColumnPairs {
+    static constexpr std::uint32_t kBatch = 256;
+
+    std::int32_t points[3][4 * kBatch];  ///< x, y, z and something of each vertex.
+    TableColumn columns[kBatch];
+    std::uint32_t count = 0;
+};
+
+/// What a thread leaves for later.
+struct Waiting {
+    SmallTriangles small;
+    ColumnPairs pairs;
+};
+
 struct KernelTable {
     Kernel kernel;
 
@@ -71,14 +87,15 @@ struct KernelTable {
     void (*pack_regular)(const RegularPlan& plan, const glm::ivec3* points, std::size_t count, std::uint32_t* keys);
     void (*pack_table)(const TablePlan& plan, const glm::ivec3* points, std::size_t count, std::uint32_t* keys);
 
-    /// Pushes the crossings of triangles from `progress` on, but for those that wait in `small`; true when the block is
-    /// done, false when there is no room for more.
+    /// Pushes the crossings of triangles from `progress` on, but for those that wait; true when the block is done,
+    /// false when there is no room for more.
     bool (*cross_regular)(const RegularPlan& plan, const Vertices& vertices, const Triangles& triangles,
-                          BlockProgress& progress, SmallTriangles& small, Events& events);
-    /// Pushes the crossings of those that wait.
-    bool (*cross_small)(const RegularPlan& plan, SmallTriangles& small, Events& events);
+                          BlockProgress& progress, Waiting& waiting, Events& events);
     bool (*cross_table)(const TablePlan& plan, const Vertices& vertices, const Triangles& triangles,
-                        BlockProgress& progress, Events& events);
+                        BlockProgress& progress, Waiting& waiting, Events& events);
+    /// Pushes the crossings of those that wait; false when there is no room for more.
+    bool (*cross_waiting_regular)(const RegularPlan& plan, Waiting& waiting, Events& events);
+    bool (*cross_waiting_table)(const TablePlan& plan, Waiting& waiting, Events& events);
 
     /// Copies a layer to the volume; past the cache with `stream`.
     void (*copy_layer)(const std::uint64_t* parities, std::uint64_t* out, std::size_t words, bool stream);

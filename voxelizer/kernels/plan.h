@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -43,6 +44,12 @@ struct RegularPlan {
     }
 };
 
+/// A column of a table: where it stands, its lowest sample in the region, and its bit in a layer.
+struct TableColumn {
+    std::int32_t x, y, z;
+    std::uint32_t bit;
+};
+
 /// A region of a table lattice: its columns, sorted into square bins over the plan; those of neighbouring bins of a row
 /// lie side by side, so that a triangle meets one run of places a row.
 class TablePlan {
@@ -52,24 +59,41 @@ public:
     void set_below(Below below) { below_ = below; }
     static std::size_t bytes(std::size_t columns);
 
-    std::uint32_t bin_shift() const { return bin_shift_; }
+    /// The plan is divided into square cells of 2^cell_shift() units. sums()[y · sums_stride() + x] are the columns in
+    /// all cells whose keys (kernel_table.h) are at most x and at most y.
+    std::uint32_t cell_shift() const { return cell_shift_; }
+    std::uint32_t cells_x() const { return cells_x_; }
+    std::uint32_t cells_y() const { return cells_y_; }
+    const std::uint32_t* sums() const { return sums_.data(); }
+    std::uint32_t sums_stride() const { return cells_x_ + 2; }
+
+    /// A bin is a square of 2^bin_cells_log2() by as many cells. Bin b, row after row of bins_x(), has the places
+    /// starts()[b] … starts()[b + 1] - 1.
+    std::uint32_t bin_cells_log2() const { return bin_cells_log2_; }
     std::uint32_t bins_x() const { return bins_x_; }
-    std::uint32_t bins_y() const { return bins_y_; }
-    /// Bin b, row after row, has the places starts()[b] … starts()[b + 1] - 1.
     const std::uint32_t* starts() const { return starts_.data(); }
 
-    /// By place: where the column stands, its lowest sample in the region, and its bit in a layer.
-    const std::int32_t* x() const { return x_.data(); }
-    const std::int32_t* y() const { return y_.data(); }
-    const std::int32_t* z() const { return z_.data(); }
-    const std::uint32_t* bits() const { return bits_.data(); }
+    /// The columns, by place; behind the last one there are kColumnSlack more that may be read.
+    const TableColumn* columns() const { return columns_.data(); }
+    static constexpr std::size_t kColumnSlack = 16;
 
     std::uint32_t nz() const { return static_cast<std::uint32_t>(rises_.size()); }
+    /// Heights of the samples over the lowest one, increasing from 0; and for every 2^guess_shift() units from 0 to the
+    /// highest a sample at or below the first one that is as high.
+    const std::int32_t* rises() const { return rises_.data(); }
+    const std::int32_t* guesses() const { return guesses_.data(); }
+    std::uint32_t guess_shift() const { return guess_shift_; }
+    /// How often the next sample must be tried, at most; 1 unless the table is very uneven.
+    std::uint32_t guess_steps() const { return guess_steps_; }
+    /// Rises up to here are those of is_counted_below().
+    double most_counted_below() const {
+        return below_ == Below::Dropped ? rise_below_ : -std::numeric_limits<double>::infinity();
+    }
     /// The first sample at or above `rise` units over the lowest one; nz() if there is none.
     std::uint32_t first_sample_from(std::int64_t rise) const {
         if (rise <= 0) return 0;
         if (rise > rises_.back()) return nz();
-        std::uint32_t k = guesses_[static_cast<std::size_t>(rise) >> guess_shift_];
+        auto k = static_cast<std::uint32_t>(guesses_[static_cast<std::size_t>(rise) >> guess_shift_]);
         while (rises_[k] < rise) ++k;
         return k;
     }
@@ -83,18 +107,21 @@ public:
 
 private:
     Below below_ = Below::Counts;
-    std::uint32_t bin_shift_ = 0;
+    std::uint32_t cell_shift_ = 0;
+    std::uint32_t cells_x_ = 1;
+    std::uint32_t cells_y_ = 1;
+    std::uint32_t bin_cells_log2_ = 0;
     std::uint32_t bins_x_ = 1;
-    std::uint32_t bins_y_ = 1;
     std::uint32_t guess_shift_ = 0;
+    std::uint32_t guess_steps_ = 1;
     std::int32_t lowest_sample_ = 0;  // Of all columns, as is the next.
     std::int32_t highest_sample_ = 0;
     std::int32_t rise_below_ = 0;  // Of the sample below the region, if there is one: not positive.
     std::vector<std::int32_t> rises_;
-    std::vector<std::uint16_t> guesses_;
+    std::vector<std::int32_t> guesses_;
     std::vector<std::uint32_t> starts_;
-    std::vector<std::int32_t> x_, y_, z_;
-    std::vector<std::uint32_t> bits_;
+    std::vector<std::uint32_t> sums_;
+    std::vector<TableColumn> columns_;
 };
 
 }  // namespace xorvox::kernels

@@ -23,17 +23,17 @@ void pack_regular(const RegularPlan& plan, const glm::ivec3* points, std::size_t
 }
 
 void pack_table(const TablePlan& plan, const glm::ivec3* points, std::size_t count, std::uint32_t* keys) {
-    const auto bin = [&plan](std::int32_t coordinate, std::uint32_t bins) {
+    const auto cell = [&plan](std::int32_t coordinate, std::uint32_t cells) {
         return static_cast<std::uint32_t>(
-            std::clamp<std::int64_t>((coordinate >> plan.bin_shift()) + std::int64_t{1}, 0, std::int64_t{bins} + 1));
+            std::clamp<std::int64_t>((coordinate >> plan.cell_shift()) + std::int64_t{1}, 0, std::int64_t{cells} + 1));
     };
     for (std::size_t i = 0; i < count; ++i) {
-        keys[i] = bin(points[i].y, plan.bins_y()) << 16 | bin(points[i].x, plan.bins_x());
+        keys[i] = cell(points[i].y, plan.cells_y()) << 16 | cell(points[i].x, plan.cells_x());
     }
 }
 
 bool cross_regular(const RegularPlan& plan, const Vertices& vertices, const Triangles& triangles,
-                   BlockProgress& progress, SmallTriangles&, Events& events) {
+                   BlockProgress& progress, Waiting&, Events& events) {
     for (; progress.triangle < triangles.count; ++progress.triangle, progress.part = 0) {
         const std::uint32_t* const index = triangles.indices + 3 * progress.triangle;
         const KeyBox box(vertices.keys[index[0]], vertices.keys[index[1]], vertices.keys[index[2]]);
@@ -51,28 +51,30 @@ bool cross_regular(const RegularPlan& plan, const Vertices& vertices, const Tria
     return true;
 }
 
-bool cross_small(const RegularPlan&, SmallTriangles&, Events&) {
-    return true;
+template <class Plan>
+bool cross_waiting(const Plan&, Waiting&, Events&) {
+    return true;  // Nothing waits here.
 }
 
-class TableCrossing {
-public:
-    TableCrossing(const TablePlan& plan, Events& events) : plan_(plan), events_(events) {}
-    bool set(const Triangle& t) { return !plan_.misses(t) && facet_.set(t.a, t.b, t.c); }
-    void cross(std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t place = begin; place < end; ++place) push_if_crossed(plan_, facet_, place, events_);
-    }
-
-private:
-    const TablePlan& plan_;
-    Events& events_;
-    Facet facet_;
-};
-
 bool cross_table(const TablePlan& plan, const Vertices& vertices, const Triangles& triangles, BlockProgress& progress,
-                 Events& events) {
-    TableCrossing crossing(plan, events);
-    return cross_bins(plan, vertices, triangles, progress, events, crossing);
+                 Waiting&, Events& events) {
+    for (; progress.triangle < triangles.count; ++progress.triangle, progress.part = 0) {
+        const std::uint32_t* const index = triangles.indices + 3 * progress.triangle;
+        const KeyBox box(vertices.keys[index[0]], vertices.keys[index[1]], vertices.keys[index[2]]);
+        const Triangle t{vertices.points[index[0]], vertices.points[index[1]], vertices.points[index[2]]};
+        Facet facet;
+        if (plan.misses(t) || !facet.set(t.a, t.b, t.c)) continue;
+        const bool done =
+            visit_runs(plan, box, progress.part, [&](std::size_t part, std::uint32_t begin, std::uint32_t end) {
+                progress.part = part;
+                if (!events.has_room(end - begin)) return false;
+                for (std::uint32_t place = begin; place < end; ++place)
+                    push_if_crossed(plan, facet, plan.columns()[place], events);
+                return true;
+            });
+        if (!done) return false;
+    }
+    return true;
 }
 
 void copy_layer(const std::uint64_t* parities, std::uint64_t* out, std::size_t words, bool) {
@@ -81,7 +83,7 @@ void copy_layer(const std::uint64_t* parities, std::uint64_t* out, std::size_t w
 
 }  // namespace
 
-const KernelTable kScalarTable{Kernel::Scalar, snap_points, pack_regular, pack_table,
-                               cross_regular,  cross_small, cross_table,  copy_layer};
+const KernelTable kScalarTable{Kernel::Scalar, snap_points,   pack_regular,  pack_table, cross_regular,
+                               cross_table,    cross_waiting, cross_waiting, copy_layer};
 
 }  // namespace xorvox::kernels

@@ -12,6 +12,7 @@
 // Without vectors there is scalar.cpp.
 #if HWY_TARGET != HWY_SCALAR
 #include "voxelizer/kernels/simd_copy-inl.h"
+#include "voxelizer/kernels/simd_pairs-inl.h"
 #include "voxelizer/kernels/simd_regular-inl.h"
 #include "voxelizer/kernels/simd_rows-inl.h"
 #include "voxelizer/kernels/simd_small-inl.h"
@@ -22,7 +23,8 @@ HWY_BEFORE_NAMESPACE();
 namespace xorvox::kernels::HWY_NAMESPACE {
 
 KernelTable table(Kernel kernel) {
-    return {kernel, snap_points, pack_regular, pack_table, cross_regular, cross_small, cross_table, copy_layer};
+    return {kernel,      snap_points,           pack_regular,        pack_table, cross_regular,
+            cross_table, cross_waiting_regular, cross_waiting_table, copy_layer};
 }
 
 }  // namespace xorvox::kernels::HWY_NAMESPACE

@@ -72,7 +72,8 @@ inline void find_candidates(const Vertices& vertices, const Triangles& triangles
 }
 
 inline bool cross_regular(const RegularPlan& plan, const Vertices& vertices, const Triangles& triangles,
-                          BlockProgress& progress, SmallTriangles& small, Events& events) {
+                          BlockProgress& progress, Waiting& waiting, Events& events) {
+    SmallTriangles& small = waiting.small;
     const hn::CappedTag<std::int32_t, 4> d4;
     const double pitch = static_cast<double>(std::int64_t{1} << plan.columns.shift());
     const auto most =

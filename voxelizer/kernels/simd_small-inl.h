@@ -186,7 +186,8 @@ HWY_NOINLINE void cross_batch(const RegularPlan& plan, SmallTriangles::Batch& ba
     batch.count = 0;
 }
 
-inline bool cross_small(const RegularPlan& plan, SmallTriangles& small, Events& events) {
+inline bool cross_waiting_regular(const RegularPlan& plan, Waiting& waiting, Events& events) {
+    SmallTriangles& small = waiting.small;
     for (std::uint32_t i = 0; i < small.batches.size(); ++i) {
         SmallTriangles::Batch& batch = small.batches[i];
         if (batch.count == 0) continue;

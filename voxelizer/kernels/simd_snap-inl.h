@@ -89,9 +89,9 @@ inline void pack_table(const TablePlan& plan, const glm::ivec3* points, std::siz
     const hn::ScalableTag<std::int32_t> d;
     const auto zero = hn::Zero(d);
     const auto one = hn::Set(d, 1);
-    const auto end_x = hn::Set(d, static_cast<std::int32_t>(plan.bins_x() + 1));
-    const auto end_y = hn::Set(d, static_cast<std::int32_t>(plan.bins_y() + 1));
-    const auto shift = static_cast<int>(plan.bin_shift());
+    const auto end_x = hn::Set(d, static_cast<std::int32_t>(plan.cells_x() + 1));
+    const auto end_y = hn::Set(d, static_cast<std::int32_t>(plan.cells_y() + 1));
+    const auto shift = static_cast<int>(plan.cell_shift());
     const std::size_t done = pack(points, count, keys, [&](auto x, auto y) HWY_ATTR {
         const auto column = hn::Min(hn::Max(hn::Add(hn::ShiftRightSame(x, shift), one), zero), end_x);
         const auto row = hn::Min(hn::Max(hn::Add(hn::ShiftRightSame(y, shift), one), zero), end_y);

@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 #include "voxelizer/kernels/direct.h"
 #include "voxelizer/kernels/kernel_table.h"
+#include "voxelizer/kernels/simd_pairs-inl.h"
 #include "voxelizer/kernels/simd_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,14 +49,18 @@ public:
         return !fits_ || lines_.set(p);
     }
 
-    void cross(std::uint32_t begin, std::uint32_t end) {
+    /// Pushes the crossings of some columns, at most Events::kMaxPushed, for all of which there is room. A vector more
+    /// may be read.
+    void cross(const TableColumn* columns, std::size_t count) {
         if (!fits_) {
-            for (std::uint32_t place = begin; place < end; ++place) push_if_crossed(plan_, facet_, place, events_);
+            for (std::size_t i = 0; i < count; ++i) push_if_crossed(plan_, facet_, columns[i], events_);
             return;
         }
         const hn::ScalableTag<double> d;
         const hn::Rebind<std::int32_t, decltype(d)> di;
         const std::size_t lanes = hn::Lanes(d);
+        constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(double);
+        static_assert(kMaxLanes <= TablePlan::kColumnSlack);
         const auto zero = hn::Zero(d);
         const auto one = hn::Set(d, 1.0);
         const auto origin_x = hn::Set(di, origin_.x);
@@ -63,10 +68,14 @@ public:
         const auto& e = lines_.edges;
         const auto divisor = hn::Set(d, lines_.area);
         const auto inverse = hn::Set(d, 1.0 / lines_.area);
-        std::uint32_t place = begin;
-        for (; place + lanes <= end; place += static_cast<std::uint32_t>(lanes)) {
-            const auto x = hn::PromoteTo(d, hn::Sub(hn::LoadU(di, plan_.x() + place), origin_x));
-            const auto y = hn::PromoteTo(d, hn::Sub(hn::LoadU(di, plan_.y() + place), origin_y));
+        const auto end = hn::Set(d, static_cast<double>(count));
+        const auto lowest = hn::Set(d, static_cast<double>(lowest_) + 1.0);
+        std::size_t n = 0;
+        for (std::size_t at = 0; at < count; at += lanes) {
+            auto ix = origin_x, iy = origin_x, iz = origin_x, bits = origin_x;
+            hn::LoadInterleaved4(di, &columns[at].x, ix, iy, iz, bits);
+            const auto x = hn::PromoteTo(d, hn::Sub(ix, origin_x));
+            const auto y = hn::PromoteTo(d, hn::Sub(iy, origin_y));
             const auto value = [&](const EdgeLine& line) HWY_ATTR {
                 const auto along_x = hn::Mul(x, hn::Set(d, line.per_x));
                 const auto along_y = hn::Mul(y, hn::Set(d, line.per_y));
@@ -78,16 +87,16 @@ public:
             const auto side0 = hn::Sub(value0, hn::Set(d, e[0].bias));
             const auto side1 = hn::Sub(value1, hn::Set(d, e[1].bias));
             const auto side2 = hn::Sub(value2, hn::Set(d, e[2].bias));
-            const auto inside = hn::Ge(hn::Min(hn::Min(side0, side1), side2), zero);
-            if (hn::AllFalse(d, inside)) continue;
-
+            auto inside = hn::Ge(hn::Min(hn::Min(side0, side1), side2), zero);
+            inside = hn::And(inside, hn::Lt(hn::Iota(d, static_cast<double>(at)), end));
+            // No question here whether there are any: it would be answered wrongly half of the time.
             const auto height = hn::Add(
                 hn::Add(hn::Mul(value0, hn::Set(d, lines_.heights[0])), hn::Mul(value1, hn::Set(d, lines_.heights[1]))),
                 hn::Mul(value2, hn::Set(d, lines_.heights[2])));
             const auto quotient = hn::Mul(height, inverse);
             auto whole = hn::Floor(quotient);
-            auto doubtful = hn::Lt(zero, zero);
             if (exact_) {
+                // The quotient may be off by one; the remainder, which is exact, tells.
                 const auto rest = hn::Sub(height, hn::Mul(whole, divisor));
                 whole = hn::Sub(whole, hn::IfThenElseZero(hn::Lt(rest, zero), one));
                 whole = hn::Add(whole, hn::IfThenElseZero(hn::Ge(rest, divisor), one));
@@ -96,56 +105,21 @@ public:
                 whole = hn::Sub(whole, hn::IfThenElseZero(touches, touch));
             } else {
                 const auto fraction = hn::Sub(quotient, whole);
-                doubtful = hn::Or(hn::Lt(fraction, hn::Set(d, kDoubtfulUnits)),
-                                  hn::Gt(fraction, hn::Set(d, 1.0 - kDoubtfulUnits)));
-            }
-            constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(double);
-            HWY_ALIGN double wholes[kMaxLanes];
-            HWY_ALIGN double state[kMaxLanes];
-            hn::Store(whole, d, wholes);
-            hn::Store(hn::Add(hn::IfThenElseZero(inside, one), hn::IfThenElseZero(hn::And(inside, doubtful), one)), d,
-                      state);
-            for (std::size_t i = 0; i < lanes; ++i) {
-                const auto column = place + static_cast<std::uint32_t>(i);
-                if (state[i] == 1.0) {
-                    const std::int64_t first_above = lowest_ + static_cast<std::int64_t>(wholes[i]) + 1;
-                    push_at_rise(plan_, column, first_above - plan_.z()[column], events_);
-                } else if (state[i] == 2.0) {
-                    push_if_crossed(plan_, facet_, column, events_);
+                const auto doubtful = hn::And(inside, hn::Or(hn::Lt(fraction, hn::Set(d, kDoubtfulUnits)),
+                                                             hn::Gt(fraction, hn::Set(d, 1.0 - kDoubtfulUnits))));
+                if (!hn::AllFalse(d, doubtful)) {
+                    inside = hn::AndNot(doubtful, inside);
+                    HWY_ALIGN double asked[kMaxLanes];
+                    hn::Store(hn::IfThenElseZero(doubtful, one), d, asked);
+                    for (std::size_t lane = 0; lane < lanes; ++lane) {
+                        if (asked[lane] != 0) push_if_crossed(plan_, facet_, columns[at + lane], events_);
+                    }
                 }
             }
+            const auto rise = hn::Sub(hn::Add(whole, lowest), hn::PromoteTo(d, iz));
+            n += store_at_rises(plan_, d, rise, inside, bits, found_ + n);
         }
-        if (place == end) return;
-        // Runs are often shorter than a vector: the rest by the same tests, one column at a time.
-        for (; place < end; ++place) {
-            const double x = static_cast<double>(std::int64_t{plan_.x()[place]} - origin_.x);
-            const double y = static_cast<double>(std::int64_t{plan_.y()[place]} - origin_.y);
-            double values[3];
-            bool inside = true;
-            for (int i = 0; i < 3; ++i) {
-                values[i] = e[i].at_origin + (e[i].per_x * x + e[i].per_y * y);
-                inside &= values[i] >= e[i].bias;
-            }
-            if (!inside) continue;
-            if (!exact_) {
-                push_if_crossed(plan_, facet_, place, events_);
-                continue;
-            }
-            const double height =
-                values[0] * lines_.heights[0] + values[1] * lines_.heights[1] + values[2] * lines_.heights[2];
-            double whole = std::floor(height / lines_.area);
-            double rest = height - whole * lines_.area;
-            if (rest < 0) {
-                whole -= 1;
-                rest += lines_.area;
-            } else if (rest >= lines_.area) {
-                whole += 1;
-                rest -= lines_.area;
-            }
-            if (rest == 0 && lines_.touch_is_above) whole -= 1;
-            const std::int64_t first_above = lowest_ + static_cast<std::int64_t>(whole) + 1;
-            push_at_rise(plan_, place, first_above - plan_.z()[place], events_);
-        }
+        events_.push(found_, n);
     }
 
 private:
@@ -157,12 +131,155 @@ private:
     std::int32_t lowest_ = 0;
     bool exact_ = false;
     bool fits_ = false;
+    std::uint64_t found_[Events::kMaxPushed + HWY_MAX_BYTES / sizeof(double)];
 };
 
+/// The numbers of the triangles of a block in whose cells there are columns.
+struct NearColumns {
+    static constexpr std::size_t kCapacity = kBlockTriangles + HWY_MAX_BYTES / sizeof(std::uint32_t);
+    std::uint32_t triangle[kCapacity];
+    std::size_t count = 0;
+};
+
+inline void find_near_columns(const TablePlan& plan, const Vertices& vertices, const Triangles& triangles,
+                              std::size_t first, NearColumns& near) {
+    const hn::ScalableTag<std::uint32_t> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::Repartition<std::uint16_t, decltype(d)> dh;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto* const keys = reinterpret_cast<const std::int32_t*>(vertices.keys);
+    const auto* const sums = reinterpret_cast<const std::int32_t*>(plan.sums());
+    const auto lower_half = hn::Set(d, 0xffff);
+    const auto stride = hn::Set(d, plan.sums_stride());
+    const auto one = hn::Set(dh, 1);
+    std::size_t n = 0;
+    std::size_t t = first;
+    for (; t + lanes <= triangles.count; t += lanes) {
+        auto i0 = hn::Zero(d);
+        auto i1 = i0;
+        auto i2 = i0;
+        hn::LoadInterleaved3(d, triangles.indices + 3 * t, i0, i1, i2);
+        const auto k0 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i0)));
+        const auto k1 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i1)));
+        const auto k2 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i2)));
+        const auto low = hn::BitCast(d, hn::SaturatedSub(hn::Min(hn::Min(k0, k1), k2), one));
+        const auto high = hn::BitCast(d, hn::Max(hn::Max(k0, k1), k2));
+        const auto low_x = hn::And(low, lower_half), high_x = hn::And(high, lower_half);
+        const auto low_y = hn::Mul(hn::ShiftRight<16>(low), stride), high_y = hn::Mul(hn::ShiftRight<16>(high), stride);
+        const auto sum = [&](auto x, auto y)
+                             HWY_ATTR { return hn::GatherIndex(di, sums, hn::BitCast(di, hn::Add(x, y))); };
+        const auto columns =
+            hn::Sub(hn::Sub(sum(high_x, high_y), sum(low_x, high_y)), hn::Sub(sum(high_x, low_y), sum(low_x, low_y)));
+        const auto some = hn::Ne(hn::BitCast(d, columns), hn::Zero(d));
+        if (hn::AllFalse(d, some)) continue;
+        hn::StoreU(hn::Compress(hn::Iota(d, static_cast<std::uint32_t>(t)), some), d, near.triangle + n);
+        n += hn::CountTrue(d, some);
+    }
+    for (; t < triangles.count; ++t) near.triangle[n++] = static_cast<std::uint32_t>(t);
+    near.count = n;
+}
+
+/// Lets the columns in a triangle's bins that are in its box as well wait with it. False, and nothing waits, when there
+/// are more than `most` columns in the bins; there is room for as many.
+HWY_INLINE bool let_wait(const TablePlan& plan, const KeyBox& bins, const glm::ivec3* const* corners, std::size_t most,
+                         ColumnPairs& pairs) {
+    const hn::CappedTag<std::int32_t, 4> d4;
+    const auto a = hn::LoadU(d4, &corners[0]->x);
+    const auto b = hn::LoadU(d4, &corners[1]->x);
+    const auto c = hn::LoadU(d4, &corners[2]->x);
+    const std::int32_t left = std::min({corners[0]->x, corners[1]->x, corners[2]->x});
+    const std::int32_t right = std::max({corners[0]->x, corners[1]->x, corners[2]->x});
+    const std::int32_t front = std::min({corners[0]->y, corners[1]->y, corners[2]->y});
+    const std::int32_t back = std::max({corners[0]->y, corners[1]->y, corners[2]->y});
+    std::size_t seen = 0;
+    std::uint32_t at = pairs.count;
+    const bool all = visit_runs(plan, bins, 0, [&](std::size_t, std::uint32_t begin, std::uint32_t end) HWY_ATTR {
+        seen += end - begin;
+        if (seen > most) return false;
+        for (; begin < end; ++begin) {
+            // Written in any case, and kept if it is in the box: there is no way to foresee that.
+            const TableColumn column = plan.columns()[begin];
+            hn::StoreU(a, d4, pairs.points[0] + 4 * at);
+            hn::StoreU(b, d4, pairs.points[1] + 4 * at);
+            hn::StoreU(c, d4, pairs.points[2] + 4 * at);
+            pairs.columns[at] = column;
+            at += static_cast<std::uint32_t>((column.x >= left) & (column.x <= right) & (column.y >= front) &
+                                             (column.y <= back));
+        }
+        return true;
+    });
+    if (all) pairs.count = at;
+    return all;
+}
+
+/// Copies the columns in a triangle's bins, side by side, so that lanes are full; how many, or `most` + 1 when there
+/// are more. A vector beyond `most` may be overwritten.
+HWY_INLINE std::size_t copy_columns(const TablePlan& plan, const KeyBox& bins, std::size_t most, TableColumn* to) {
+    const hn::ScalableTag<std::uint32_t> d;
+    constexpr std::size_t kWords = sizeof(TableColumn) / sizeof(std::uint32_t);
+    const std::size_t at_once = hn::Lanes(d) / kWords;
+    std::size_t n = 0;
+    const bool all = visit_runs(plan, bins, 0, [&](std::size_t, std::uint32_t begin, std::uint32_t end) HWY_ATTR {
+        if (n + (end - begin) > most) return false;
+        const auto* const from = reinterpret_cast<const std::uint32_t*>(plan.columns() + begin);
+        for (std::size_t i = 0; i < end - begin; i += at_once) {
+            hn::StoreU(hn::LoadU(d, from + kWords * i), d, reinterpret_cast<std::uint32_t*>(to + n + i));
+        }
+        n += end - begin;
+        return true;
+    });
+    return all ? n : most + 1;
+}
+
 inline bool cross_table(const TablePlan& plan, const Vertices& vertices, const Triangles& triangles,
-                        BlockProgress& progress, Events& events) {
+                        BlockProgress& progress, Waiting& waiting, Events& events) {
+    // Of few columns each waits for a lane, with the triangle; more are crossed by one triangle at a time, copied from
+    // their bins first unless they are many.
+    constexpr std::size_t kMostWaiting = 16;
+    static_assert(kMostWaiting < ColumnPairs::kBatch);
+    constexpr std::size_t kMostCopied = 256;
+    TableColumn copied[kMostCopied + TablePlan::kColumnSlack];
+    NearColumns near;
+    find_near_columns(plan, vertices, triangles, progress.triangle, near);
+    ColumnPairs& pairs = waiting.pairs;
     TableCrossing crossing(plan, events);
-    return cross_bins(plan, vertices, triangles, progress, events, crossing);
+    const std::size_t resumed = progress.triangle;
+    for (std::size_t i = 0; i < near.count; ++i) {
+        const std::uint32_t* const index = triangles.indices + 3 * near.triangle[i];
+        progress.triangle = near.triangle[i];
+        if (progress.triangle != resumed) progress.part = 0;
+        const KeyBox bins(vertices.keys[index[0]], vertices.keys[index[1]], vertices.keys[index[2]]);
+        const glm::ivec3* const corners[3] = {&vertices.points[index[0]], &vertices.points[index[1]],
+                                              &vertices.points[index[2]]};
+        const Triangle triangle{*corners[0], *corners[1], *corners[2]};
+        if (plan.misses(triangle)) continue;
+        if (pairs.count + kMostWaiting > ColumnPairs::kBatch) {
+            if (!events.has_room(pairs.count)) return false;
+            cross_pairs(plan, pairs, events);
+        }
+        if (let_wait(plan, bins, corners, kMostWaiting, pairs) || !crossing.set(triangle)) continue;
+        if (const std::size_t n = copy_columns(plan, bins, kMostCopied, copied); n <= kMostCopied) {
+            if (!events.has_room(n)) return false;
+            crossing.cross(copied, n);
+            continue;
+        }
+        const bool done = visit_runs(plan, bins, progress.part,
+                                     [&](std::size_t part, std::uint32_t begin, std::uint32_t end) HWY_ATTR {
+                                         progress.part = part;
+                                         if (!events.has_room(end - begin)) return false;
+                                         crossing.cross(plan.columns() + begin, end - begin);
+                                         return true;
+                                     });
+        if (!done) return false;
+    }
+    progress = {triangles.count, 0};
+    return true;
+}
+
+inline bool cross_waiting_table(const TablePlan& plan, Waiting& waiting, Events& events) {
+    if (!events.has_room(waiting.pairs.count)) return false;
+    cross_pairs(plan, waiting.pairs, events);
+    return true;
 }
 
 }  // namespace xorvox::kernels::HWY_NAMESPACE

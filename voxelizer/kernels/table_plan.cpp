@@ -10,6 +10,18 @@
 namespace xorvox::kernels {
 namespace {
 
+constexpr std::size_t kMostGuesses = 1 << 15;
+constexpr std::size_t kMostSideCells = 0xfff0;  // They are packed in 16 bits.
+
+/// The finer the cells, the fewer triangles seem to touch a column; but they should stay in a core's caches.
+constexpr std::size_t most_cells(std::size_t columns) {
+    return std::min(16 * columns, std::max<std::size_t>(2 * columns, 2'000'000));
+}
+/// The fuller the bins, the fewer runs of columns, but the more of these are beside the triangle.
+constexpr std::size_t most_bins(std::size_t columns) {
+    return 6 * columns;
+}
+
 glm::ivec3 snapped_sample(const Lattice& lattice, const SnapGrid& grid, std::size_t column) {
     const double base = lattice.z0.empty() ? 0.0 : lattice.z0[column];
     glm::ivec3 snapped{0};
@@ -30,8 +42,11 @@ std::int32_t snapped_rise(const Lattice& lattice, const SnapGrid& grid, std::uin
 }  // namespace
 
 std::size_t TablePlan::bytes(std::size_t columns) {
-    return columns * (3 * sizeof(std::int32_t) + 2 * sizeof(std::uint32_t)) +
-           kMaxLatticeSide * (sizeof(std::int32_t) + 4 * sizeof(std::uint16_t)) + 64;
+    // Beside the cells there is a border of empty ones.
+    const std::size_t cells = most_cells(columns);
+    return (columns + kColumnSlack) * sizeof(TableColumn) +
+           (most_bins(columns) + 1 + cells + 4 * std::min(cells, kMostSideCells) + 4) * sizeof(std::uint32_t) +
+           (kMaxLatticeSide + kMostGuesses) * sizeof(std::int32_t) + 64;
 }
 
 void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Region& region) {
@@ -42,27 +57,39 @@ void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Regio
     }
     rise_below_ = region.begin.z == 0 ? std::numeric_limits<std::int32_t>::min()
                                       : snapped_rise(lattice, grid, region.begin.z - 1) - lowest_rise;
-    // A guess for every 2^guess_shift_ units: about two for each sample.
+    // Guesses so fine that there is one sample between two of them, if these are not too many.
+    std::int32_t least_step = std::numeric_limits<std::int32_t>::max();
+    for (std::size_t i = 1; i < rises_.size(); ++i) least_step = std::min(least_step, rises_[i] - rises_[i - 1]);
     guess_shift_ = 0;
-    while ((static_cast<std::size_t>(rises_.back()) >> guess_shift_) >= 2 * rises_.size() + 2) ++guess_shift_;
+    while (guess_shift_ < 21 && (std::int64_t{2} << guess_shift_) <= least_step) ++guess_shift_;
+    while ((static_cast<std::size_t>(rises_.back()) >> guess_shift_) >= kMostGuesses) ++guess_shift_;
     guesses_.resize((static_cast<std::size_t>(rises_.back()) >> guess_shift_) + 1);
-    std::uint16_t k = 0;
+    guess_steps_ = 1;
+    std::int32_t k = 0;
     for (std::size_t g = 0; g < guesses_.size(); ++g) {
-        while (rises_[k] < static_cast<std::int64_t>(g << guess_shift_)) ++k;
+        std::uint32_t steps = 0;
+        for (; rises_[static_cast<std::size_t>(k)] < static_cast<std::int64_t>(g << guess_shift_); ++k) ++steps;
         guesses_[g] = k;
+        guess_steps_ = std::max(guess_steps_, steps);
     }
+    guess_steps_ =
+        std::max(guess_steps_, static_cast<std::uint32_t>(rises_.size() - 1) - static_cast<std::uint32_t>(k));
 
-    // The smallest bins of which there are no more than columns.
     const Box box = sample_bounds(lattice);
     glm::ivec3 upper{0};
     (void)snap(grid, box.upper, upper);
     const std::size_t count = std::size_t{region.size.x} * region.size.y;
-    constexpr std::uint32_t kMostBins = 0xfff0;  // Along a side: they are packed in 16 bits.
-    for (bin_shift_ = 0;; ++bin_shift_) {
-        bins_x_ = static_cast<std::uint32_t>(upper.x >> bin_shift_) + 1;
-        bins_y_ = static_cast<std::uint32_t>(upper.y >> bin_shift_) + 1;
-        if (bins_x_ <= kMostBins && bins_y_ <= kMostBins && std::uint64_t{bins_x_} * bins_y_ <= count) break;
-        if (bins_x_ == 1 && bins_y_ == 1) break;
+    for (cell_shift_ = 0;; ++cell_shift_) {
+        cells_x_ = static_cast<std::uint32_t>(upper.x >> cell_shift_) + 1;
+        cells_y_ = static_cast<std::uint32_t>(upper.y >> cell_shift_) + 1;
+        if (cells_x_ > kMostSideCells || cells_y_ > kMostSideCells) continue;
+        if (std::uint64_t{cells_x_} * cells_y_ <= most_cells(count)) break;
+    }
+    std::uint32_t bins_y = 1;
+    for (bin_cells_log2_ = 0;; ++bin_cells_log2_) {
+        bins_x_ = ((cells_x_ - 1) >> bin_cells_log2_) + 1;
+        bins_y = ((cells_y_ - 1) >> bin_cells_log2_) + 1;
+        if (std::uint64_t{bins_x_} * bins_y <= most_bins(count)) break;
     }
 
     const auto column_at = [&](std::size_t i) {
@@ -71,32 +98,41 @@ void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Regio
         return snapped_sample(lattice, grid, y * lattice.nx + x);
     };
     const auto bin_of = [&](const glm::ivec3& sample) {
-        const auto bin_x = static_cast<std::size_t>(sample.x >> bin_shift_);
-        const auto bin_y = static_cast<std::size_t>(sample.y >> bin_shift_);
-        return bin_y * bins_x_ + bin_x;
+        const std::uint32_t shift = cell_shift_ + bin_cells_log2_;
+        return static_cast<std::size_t>(sample.y >> shift) * bins_x_ + static_cast<std::size_t>(sample.x >> shift);
     };
     // Counting sort: first starts_[b] counts the columns of the bins up to b, then each column takes the last free
-    // place.
-    starts_.assign(std::size_t{bins_x_} * bins_y_ + 1, 0);
-    for (std::size_t i = 0; i < count; ++i) ++starts_[bin_of(column_at(i))];
+    // place. Sums: first the columns of each cell.
+    starts_.assign(std::size_t{bins_x_} * bins_y + 1, 0);
+    sums_.assign(std::size_t{sums_stride()} * (cells_y_ + 2), 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::ivec3 sample = column_at(i);
+        ++starts_[bin_of(sample)];
+        const auto cell_x = static_cast<std::size_t>(sample.x >> cell_shift_);
+        const auto cell_y = static_cast<std::size_t>(sample.y >> cell_shift_);
+        ++sums_[(cell_y + 1) * sums_stride() + cell_x + 1];
+    }
+    for (std::uint32_t y = 1; y <= cells_y_ + 1; ++y) {
+        std::uint32_t in_row = 0;
+        for (std::uint32_t x = 1; x <= cells_x_ + 1; ++x) {
+            const std::size_t at = std::size_t{y} * sums_stride() + x;
+            in_row += sums_[at];
+            sums_[at] = sums_[at - sums_stride()] + in_row;
+        }
+    }
     for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
-    x_.resize(count);
-    y_.resize(count);
-    z_.resize(count);
-    bits_.resize(count);
+    columns_.resize(count + kColumnSlack);
     lowest_sample_ = std::numeric_limits<std::int32_t>::max();
     highest_sample_ = std::numeric_limits<std::int32_t>::min();
     for (std::size_t i = count; i-- > 0;) {
         const glm::ivec3 sample = column_at(i);
         const std::size_t place = --starts_[bin_of(sample)];
-        x_[place] = sample.x;
-        y_[place] = sample.y;
-        z_[place] = sample.z + lowest_rise;
         const auto x = static_cast<std::uint32_t>(i % region.size.x);
         const auto y = static_cast<std::uint32_t>(i / region.size.x);
-        bits_[place] = static_cast<std::uint32_t>(column_bit(region.size.x, x, y));
-        lowest_sample_ = std::min(lowest_sample_, z_[place]);
-        highest_sample_ = std::max(highest_sample_, z_[place] + rises_.back());
+        const std::int32_t z = sample.z + lowest_rise;
+        columns_[place] = {sample.x, sample.y, z, static_cast<std::uint32_t>(column_bit(region.size.x, x, y))};
+        lowest_sample_ = std::min(lowest_sample_, z);
+        highest_sample_ = std::max(highest_sample_, z + rises_.back());
     }
 }
 
