@@ -1,43 +1,18 @@
 // The covering of real models, which stand beside the project and are not part of it.
 
-#include <array>
-#include <cstdio>
-#include <filesystem>
-#include <string>
+#include <vector>
 
+#include "models.h"
 #include "oracle.h"
 #include "simplicial_calls.h"
 #include "tests/catch.h"
 #include "voxelizer/fit.h"
-#include "voxelizer/io/mesh_file.h"
 
 using namespace xorvox;
 using namespace xorvox::test;
 
-namespace {
-
-std::filesystem::path models() {
-    return std::filesystem::path(XORVOX_SOURCE_DIR) / ".." / "shared" / "models";
-}
-
-/// The model, which is packed by zstd.
-Mesh read_model(const std::string& name) {
-    const std::string command = "zstd -q -d -c '" + (models() / (name + ".ply.zst")).string() + "'";
-    std::FILE* const pipe = popen(command.c_str(), "r");
-    REQUIRE(pipe != nullptr);
-    std::string bytes;
-    std::array<char, 65536> part;
-    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) bytes.append(part.data(), n);
-    REQUIRE(pclose(pipe) == 0);
-    auto mesh = io::parse_ply(bytes, name);
-    REQUIRE(mesh);
-    return std::move(*mesh);
-}
-
-}  // namespace
-
 TEST_CASE("the covering of models gives the columns' bits", "[models]") {
-    if (!std::filesystem::exists(models())) XORVOX_SKIP("the models of ../shared/models are not here");
+    if (!has_models()) XORVOX_SKIP("the models of ../shared/models are not here");
     struct Case {
         const char* model;
         std::vector<SimplicialOptions> options;
@@ -63,7 +38,7 @@ TEST_CASE("the covering of models gives the columns' bits", "[models]") {
 }
 
 TEST_CASE("the signed sums of a well oriented model are its parity", "[models]") {
-    if (!std::filesystem::exists(models())) XORVOX_SKIP("the models of ../shared/models are not here");
+    if (!has_models()) XORVOX_SKIP("the models of ../shared/models are not here");
     const Mesh mesh = read_model("spot5856");
     const auto box = bounds(mesh.view());
     REQUIRE(box);
