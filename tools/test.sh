@@ -58,6 +58,9 @@ count_tests() {
     [ $short = false ]
 }
 
+# What runs in several threads.
+threaded='^(contract.transport|unit.session|cli.program)|^unit.voxelizer:.*(threads|region|slabs|batches|stopped|same time|moves|rounds)'
+
 need $packages_build $packages_test
 export XORVOX_REQUIRE=${XORVOX_REQUIRE:-}
 
@@ -76,8 +79,8 @@ else
     count_tests '.*'
     stage "build asan" build asan all
     stage "asan" ctest_in asan -LE '^(gl|house|embedded)$'
-    stage "build tsan" build tsan contract_transport unit_session cli_program
-    stage "tsan" ctest_in tsan -R '^(contract.transport|unit.session|cli.program)'
+    stage "build tsan" build tsan contract_transport unit_session unit_voxelizer cli_program
+    stage "tsan" ctest_in tsan -R "$threaded"
     stage "build with clang, fuzzers" build fuzz fuzzers xorvox
     stage "fuzz, 60 s over all targets" tools/fuzz.sh 60
 fi

@@ -10,9 +10,9 @@
 // Parity along columns, with the apex of the simplicial covering (Rueda, Ogáyar, Segura, Feito: "Fast and Simple
 // Hardware Accelerated Voxelizations Using Simplicial Coverings", section 3) at infinity below. Vertices are snapped
 // and packed; triangles that cover no column are dropped by their packed vertices; the others become events (column,
-// first sample above), which are binned by bands of rows; each band is finished in the cache. Section 5 of the paper
-// asks for "several voxelizations of the entire solid or different parts of it, at different resolutions" of what was
-// set up once: set_mesh() once, then set_lattice() and regions.
+// first sample above), binned by layer; layer by layer the events of a bin flip bits of one running layer of parities,
+// which stays in the cache and is copied to the volume. What is set up once serves any resolution and any part of the
+// solid, as in section 5 of the paper: set_mesh() once, then set_lattice() and regions.
 #pragma once
 
 #include <cstddef>
@@ -42,8 +42,9 @@ struct SolidOptions {
     Kernel kernel = best_kernel();
     unsigned threads = 1;  ///< 1 to kMaxSolidThreads, the caller's own included.
     /// Bytes for events, all threads together. More events than fit are worked off in rounds, which costs time.
-    std::size_t event_bytes = std::size_t{24} << 20;
-    /// Asked between bands and between blocks of triangles: after a stop request the call ends with Cancelled.
+    std::size_t event_bytes = std::size_t{16} << 20;
+    /// Asked between blocks of triangles and between groups of layers: after a stop request the call ends with
+    /// Cancelled.
     std::stop_token stop;
     /// Told how much of the call is done, 0 to 1, never less than before; from the calling thread. May be empty.
     std::function<void(double)> progress;
@@ -117,8 +118,9 @@ public:
     SolidTimes times() const;
 
     /// Bytes that this object will hold at most, everything but the mesh and the output, when it voxelizes a mesh of
-    /// `vertices` positions on a region of `lattice`: at most 16 a vertex, and what SolidOptions::event_bytes says, and
-    /// a buffer for a band of rows for each thread; on table lattices also 24 a column. Polygons are free.
+    /// `vertices` positions on `lattice`: 16 a vertex, SolidOptions::event_bytes, for each thread a layer of the volume
+    /// and some batches of triangles, and on table lattices an index of about 130 bytes a column, less for many
+    /// columns. Polygons are free. CrossingLists are kept twice while they are made.
     std::size_t memory_bytes(std::size_t vertices, const Lattice& lattice) const;
 
 private:

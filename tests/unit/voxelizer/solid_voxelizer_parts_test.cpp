@@ -141,7 +141,7 @@ TEST_CASE("crossing lists are sorted, and give the bits and their number") {
     for (const Lattice& lattice : scene.lattices()) {
         const BitVolume all = reference(scene.mesh.view(), lattice);
         for (SolidOptions options : all_engines()) {
-            for (const std::size_t event_bytes : {std::size_t{1}, std::size_t{24} << 20}) {
+            for (const std::size_t event_bytes : {std::size_t{1}, std::size_t{16} << 20}) {
                 options.event_bytes = event_bytes;
                 INFO(name_of(options));
                 SolidVoxelizer engine = engine_for(scene.mesh.view(), lattice, options);
