@@ -2,12 +2,16 @@
 // structs from the command line; a returned Error is printed as one line, and the exit status is then 2.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "voxelizer/error.h"
+#include "voxelizer/region.h"
+#include "voxelizer/simplicial.h"
 
 namespace xorvox::tools {
 
@@ -36,7 +40,18 @@ struct VoxelizeOptions {
     MeshOptions mesh;
     GridOptions grid;
     std::string output;
+    std::string method = "column";  ///< Or "simplicial" or "reference".
     bool json = false;
+
+    // Of the method "column":
+    std::string kernel;                       ///< Empty: the best.
+    std::uint32_t threads = 0;                ///< 0: one a core.
+    std::optional<std::uint32_t> memory_mib;  ///< For volume and voxelizer; none: most of what is free.
+    std::optional<Region> region;             ///< None: the whole grid.
+
+    // Of the method "simplicial":
+    SimplicialOptions simplicial;
+    bool signed_sum = false;  ///< Look for faults of orientation.
 };
 
 struct ShowOptions {
@@ -56,6 +71,18 @@ struct SimOptions {
     bool json = false;
 };
 
+struct BenchOptions {
+    std::vector<std::string> meshes;
+    std::string sizes = "64,128,256,512,1024";
+    std::string methods = "column,simplicial";
+    std::string threads = "1,2";
+    std::string kernel;   ///< Of "column"; empty: the best.
+    bool quick = false;   ///< Few and short runs.
+    bool tables = false;  ///< Also the tables of Rueda et al.
+    std::string plot;     ///< Where a chart goes; empty: nowhere.
+    bool json = false;
+};
+
 struct DisplaysOptions {
     bool json = false;
 };
@@ -64,6 +91,7 @@ Expected<void> info(const InfoOptions& options);
 Expected<void> voxelize(const VoxelizeOptions& options);
 Expected<void> show(const ShowOptions& options);
 Expected<void> sim(const SimOptions& options);
+Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> displays(const DisplaysOptions& options);
 
 }  // namespace xorvox::tools

@@ -71,14 +71,16 @@ std::string json_string(std::string_view text) {
 
 Progress::Progress(std::string activity) {
     if (!isatty(STDERR_FILENO)) return;
-    thread_ = std::jthread([activity = std::move(activity)](std::stop_token stop) {
+    thread_ = std::jthread([this, activity = std::move(activity)](std::stop_token stop) {
         std::mutex mutex;
         std::condition_variable_any wake;
         std::unique_lock lock(mutex);
         int seconds = 0;
         const auto ended = [&] { return stop.stop_requested(); };
         while (!wake.wait_for(lock, stop, std::chrono::seconds(1), ended) && !ended()) {
-            fmt::print(stderr, "\r{} … {} s", activity, ++seconds);
+            const int percent = percent_;
+            fmt::print(stderr, "\r{} … {} s{}", activity, ++seconds,
+                       percent < 0 ? std::string() : fmt::format(", {} %", percent));
         }
         if (seconds > 0) fmt::print(stderr, "\r\033[K");
     });

@@ -1,6 +1,7 @@
 // Console: what the program says besides its results: warnings, and progress on a terminal.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -20,13 +21,17 @@ std::string thousands(std::uint64_t number);
 /// `text` as a JSON string, quotes included. Bytes that are not UTF-8 become U+FFFD.
 std::string json_string(std::string_view text);
 
-/// While it lives and standard error is a terminal: after one second, a line with what is going on and for how long,
-/// renewed in place and wiped at the end. On a pipe, nothing.
+/// While it lives and standard error is a terminal: after one second, a line with what is going on, for how long, and
+/// how much of it is done where that is known, renewed in place and wiped at the end. On a pipe, nothing.
 class Progress {
 public:
     explicit Progress(std::string activity);
 
+    /// `part` of it is done: 0 to 1.
+    void done(double part) { percent_ = static_cast<int>(part * 100.0); }
+
 private:
+    std::atomic<int> percent_ = -1;  // Not known.
     std::jthread thread_;
 };
 

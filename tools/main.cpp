@@ -1,6 +1,7 @@
 // The command line. The only file that includes CLI11, which is slow to compile.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -16,6 +17,8 @@
 
 #include "tools/commands.h"
 #include "tools/console.h"
+#include "tools/stop.h"
+#include "voxelizer/lattice.h"
 
 namespace {
 
@@ -34,8 +37,8 @@ std::uint32_t parse_count(const std::string& option, const std::string& text) {
     return number;
 }
 
-/// "1,2.5,3" into a vector; one number stands for three where `one_for_all`.
-glm::dvec3 parse_vector(const std::string& option, const std::string& text, bool one_for_all) {
+/// "1,2.5,3" into numbers; none at all when one of them is wrong.
+std::vector<double> parse_numbers(const std::string& text) {
     std::vector<double> numbers;
     std::size_t at = 0;
     while (at <= text.size()) {
@@ -43,11 +46,16 @@ glm::dvec3 parse_vector(const std::string& option, const std::string& text, bool
         double number = 0.0;
         const char* end = text.data() + comma;
         const auto [stop, error] = std::from_chars(text.data() + at, end, number);
-        if (error != std::errc() || stop != end) numbers.clear();
-        if (error != std::errc() || stop != end) break;
+        if (error != std::errc() || stop != end) return {};
         numbers.push_back(number);
         at = comma + 1;
     }
+    return numbers;
+}
+
+/// "1,2.5,3" into a vector; one number stands for three where `one_for_all`.
+glm::dvec3 parse_vector(const std::string& option, const std::string& text, bool one_for_all) {
+    const std::vector<double> numbers = parse_numbers(text);
     if (numbers.size() == 1 && one_for_all) return glm::dvec3(numbers[0]);
     if (numbers.size() != 3) {
         throw CLI::ValidationError(
@@ -55,6 +63,24 @@ glm::dvec3 parse_vector(const std::string& option, const std::string& text, bool
                                 one_for_all ? "one number or " : ""));
     }
     return {numbers[0], numbers[1], numbers[2]};
+}
+
+Axis parse_axis(const std::string& option, const std::string& text) {
+    if (text == "x") return Axis::X;
+    if (text == "y") return Axis::Y;
+    if (text == "z") return Axis::Z;
+    throw CLI::ValidationError(option, fmt::format("'{}' is no axis; choose x, y or z", text));
+}
+
+/// "0,0,8,64,64,4" into a region.
+Region parse_region(const std::string& option, const std::string& text) {
+    const std::vector<double> numbers = parse_numbers(text);
+    const auto is_index = [](double n) { return n >= 0.0 && n <= kMaxLatticeSide && n == std::floor(n); };
+    if (numbers.size() != 6 || !std::all_of(numbers.begin(), numbers.end(), is_index)) {
+        throw CLI::ValidationError(
+            option, fmt::format("'{}' is not the first voxel and the size of a box, as in 0,0,8,64,64,4", text));
+    }
+    return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
 }
 
 void add_vector(CLI::App& app, const std::string& name, std::optional<glm::dvec3>& value, bool one_for_all,
@@ -97,6 +123,63 @@ Command info_command(CLI::App& program, InfoOptions& options) {
     return {&app, [&options] { return info(options); }};
 }
 
+/// How `voxelize` computes. Every method gives the same bits of a closed mesh.
+void add_method(CLI::App& app, VoxelizeOptions& options) {
+    app.add_option("--method", options.method,
+                   "column: parity along columns, fast (the default); simplicial: tetrahedra between an apex and the "
+                   "faces; reference: column, slow and simple. The bits of a closed mesh are the same")
+        ->check(CLI::IsMember({"column", "simplicial", "reference"}))
+        ->type_name("METHOD");
+    const std::vector<CLI::Option*> of_column{
+        app.add_option("--kernel", options.kernel,
+                       "The instructions used: scalar, sse4, avx2, avx512 or neon (default: the best here)")
+            ->type_name("NAME"),
+        app.add_option_function<std::string>(
+               "--threads",
+               [&options](const std::string& text) {
+                   options.threads = text == "auto" ? 0 : parse_count("--threads", text);
+               },
+               "Threads to work with; auto is one for each core (the default)")
+            ->type_name("N|auto"),
+        app.add_option_function<std::string>(
+               "--memory", [&options](const std::string& text) { options.memory_mib = parse_count("--memory", text); },
+               "Memory for the volume and the work; a larger volume is written slab by slab (default: most of what is "
+               "free)")
+            ->type_name("MIB"),
+        app.add_option_function<std::string>(
+               "--region", [&options](const std::string& text) { options.region = parse_region("--region", text); },
+               "Only this box of the grid: its first voxel and its size")
+            ->type_name("X,Y,Z,NX,NY,NZ")};
+    const std::vector<CLI::Option*> of_simplicial{
+        app.add_option_function<std::string>(
+               "--apex",
+               [&options](const std::string& text) {
+                   if (text != "centroid") options.simplicial.apex = parse_vector("--apex", text, false);
+               },
+               "The point that all tetrahedra share, in the units of the mesh (default centroid)")
+            ->type_name("centroid|X,Y,Z"),
+        app.add_option_function<std::string>(
+               "--sweep",
+               [&options](const std::string& text) { options.simplicial.sweep = parse_axis("--sweep", text); },
+               "The axis along which slices follow each other (default y)")
+            ->type_name("x|y|z"),
+        app.add_flag("--signed", options.signed_sum,
+                     "Look for faces of wrong orientation by the signed sum of the tetrahedra; the volume stays the "
+                     "same")};
+    app.parse_complete_callback([&options, of_column, of_simplicial] {
+        const auto only_with = [&options](const std::string& method, const std::vector<CLI::Option*>& its_own) {
+            if (options.method == method) return;
+            for (const CLI::Option* option : its_own) {
+                if (option->count() == 0) continue;
+                throw CLI::ValidationError(option->get_name(),
+                                           fmt::format("is only for --method {}, not for {}", method, options.method));
+            }
+        };
+        only_with("column", of_column);
+        only_with("simplicial", of_simplicial);
+    });
+}
+
 Command voxelize_command(CLI::App& program, VoxelizeOptions& options) {
     CLI::App& app = *program.add_subcommand("voxelize", "Turn a closed mesh into a volume of bits, exactly");
     add_mesh(app, options.mesh);
@@ -113,10 +196,13 @@ Command voxelize_command(CLI::App& program, VoxelizeOptions& options) {
                "The outer corner of voxel 0,0,0, in the units of the mesh (mm with --unit)");
     add_vector(app, "--pitch", options.grid.pitch, true, "P[,PY,PZ]", "The size of a voxel");
     size->excludes("--grid")->excludes("--origin")->excludes("--pitch");
+    add_method(app, options);
     app.add_flag("--json", options.json, "One JSON object on standard output");
     examples(app,
              "  xorvox voxelize bunny.ply --size 256 -o bunny.nrrd\n"
-             "  xorvox voxelize part.stl --grid 100,80,40 --origin 0,0,0 --pitch 0.5 -o part.binvox");
+             "  xorvox voxelize part.stl --grid 100,80,40 --origin 0,0,0 --pitch 0.5 -o part.binvox\n"
+             "  xorvox voxelize bunny.ply --method simplicial --signed -o bunny.nrrd\n"
+             "  xorvox voxelize huge.ply --size 4096 --memory 2048 -o huge.bits");
     return {&app, [&options] { return voxelize(options); }};
 }
 
@@ -164,6 +250,40 @@ Command sim_command(CLI::App& program, SimOptions& options) {
     return {&app, [&options] { return sim(options); }};
 }
 
+Command bench_command(CLI::App& program, BenchOptions& options) {
+    CLI::App& bench = *program.add_subcommand("bench", "Measure how fast this machine is");
+    bench.require_subcommand(1);
+    examples(bench, "  xorvox bench voxelize bunny.ply\n\nxorvox bench voxelize --help tells more.");
+    CLI::App& app = *bench.add_subcommand(
+        "voxelize",
+        "Measure the solid voxelizers: medians of the whole way from mesh to bits, and of what the machine cannot do "
+        "without (the floor: the volume cleared, its layers combined, the mesh's corners read), all in turns");
+    app.add_option("meshes", options.meshes, "The meshes: .ply, .stl or .obj files")->required()->type_name("MESH");
+    app.add_option("--sizes", options.sizes, "Samples a side of the cube around the mesh")
+        ->capture_default_str()
+        ->type_name("N,N");
+    app.add_option("--methods", options.methods, "Of column, simplicial and reference")
+        ->capture_default_str()
+        ->type_name("NAME,NAME");
+    app.add_option("--threads", options.threads, "Threads of the method column")
+        ->capture_default_str()
+        ->type_name("N,N");
+    app.add_option("--kernel", options.kernel,
+                   "Of the method column: scalar, sse4, avx2, avx512 or neon (default: the best here)")
+        ->type_name("NAME");
+    app.add_flag("--quick", options.quick, "Few and short runs, for a first look");
+    app.add_option("--plot", options.plot, "A chart of the results, with logarithmic axes")->type_name("OUT.png");
+    CLI::Option* json = app.add_flag("--json", options.json, "One JSON array on standard output");
+    app.add_flag("--tables", options.tables,
+                 "Also the tables of Rueda et al. beside the times of gem24, gem1944, spot5856, fandisk13k and "
+                 "dragon100k, those of them that are given")
+        ->excludes(json);
+    examples(app,
+             "  xorvox bench voxelize bunny.ply dragon.ply --plot chart.png\n"
+             "  xorvox bench voxelize bunny.ply --sizes 256 --methods column --threads 1,2,4 --json");
+    return {&bench, [&options] { return bench_voxelize(options); }};
+}
+
 Command displays_command(CLI::App& program, DisplaysOptions& options) {
     CLI::App& app = *program.add_subcommand("displays", "List the displays that are built in, one a line, name first");
     app.add_flag("--json", options.json, "One JSON array on standard output");
@@ -198,11 +318,12 @@ int main_program(int argc, char** argv) {
     VoxelizeOptions voxelize_options;
     ShowOptions show_options;
     SimOptions sim_options;
+    BenchOptions bench_options;
     DisplaysOptions displays_options;
-    const std::vector<Command> commands{info_command(program, info_options),
-                                        voxelize_command(program, voxelize_options),
-                                        show_command(program, show_options), sim_command(program, sim_options),
-                                        displays_command(program, displays_options)};
+    const std::vector<Command> commands{
+        info_command(program, info_options),   voxelize_command(program, voxelize_options),
+        show_command(program, show_options),   sim_command(program, sim_options),
+        bench_command(program, bench_options), displays_command(program, displays_options)};
 
     const std::vector<std::string> names = command_names(commands);
     const std::string first = argc > 1 ? argv[1] : "";
@@ -220,10 +341,12 @@ int main_program(int argc, char** argv) {
         std::string what = one_line(error.what());
         for (const Command& command : commands) {
             if (!command.app->parsed()) continue;
-            help = fmt::format("xorvox {} --help", command.app->get_name());
+            std::string name = "xorvox " + command.app->get_name();
+            for (const CLI::App* part : command.app->get_subcommands()) name += ' ' + part->get_name();
+            help = name + " --help";
             // CLI11 lists these from the last to the first.
-            if (const auto extra = command.app->remaining(); !extra.empty()) {
-                what = fmt::format("'{}' is not known to xorvox {}", extra.front(), command.app->get_name());
+            if (const auto extra = command.app->remaining(true); !extra.empty()) {
+                what = fmt::format("'{}' is not known to {}", extra.front(), name);
             }
         }
         complain(fmt::format("{}; see {}", what, help));
@@ -233,6 +356,7 @@ int main_program(int argc, char** argv) {
         if (!command.app->parsed()) continue;
         if (const Expected<void> done = command.run(); !done) {
             complain(one_line(done.error().message));
+            end_if_asked_to_stop();
             return kFailure;
         }
     }

@@ -32,7 +32,7 @@ Expected<MeshInput> read_input(const MeshOptions& options) {
     return input;
 }
 
-Expected<MeshInput> read_solid(const MeshOptions& options) {
+Expected<MeshInput> read_solid(const MeshOptions& options, const std::string& holes) {
     Expected<MeshInput> input = read_input(options);
     if (!input || input->report.closed_mod2) return input;
     const std::size_t open = input->report.open_edges;
@@ -40,7 +40,7 @@ Expected<MeshInput> read_solid(const MeshOptions& options) {
         fmt::format("{}: {} open {}", io::printable_name(options.path), thousands(open), open == 1 ? "edge" : "edges");
     if (options.strict)
         return fail(found + ", and --strict wants a closed mesh; close its holes or leave out --strict");
-    warn(found + "; columns are counted from below, so holes may leave streaks (xorvox info tells more)");
+    warn(found + "; " + holes + " (xorvox info tells more)");
     return input;
 }
 

@@ -16,8 +16,9 @@ struct MeshInput {
 /// Reads and examines the mesh.
 Expected<MeshInput> read_input(const MeshOptions& options);
 
-/// The same for a mesh that is going to be filled: open edges are a warning on standard error, or an error with
-/// `strict`.
-Expected<MeshInput> read_solid(const MeshOptions& options);
+/// The same for a mesh that is going to be filled: open edges are a warning on standard error, which says what `holes`
+/// do, or an error with `strict`.
+Expected<MeshInput> read_solid(const MeshOptions& options,
+                               const std::string& holes = "columns are counted from below, so holes may leave streaks");
 
 }  // namespace xorvox::tools

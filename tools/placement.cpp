@@ -54,20 +54,6 @@ Expected<Lattice> explicit_grid(const GridOptions& options) {
     return lattice;
 }
 
-/// Bytes that this process can still get without swapping; all of them where the kernel does not say.
-std::uint64_t available_bytes() {
-    rlimit limit = {};
-    std::uint64_t allowed = std::numeric_limits<std::uint64_t>::max();
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) allowed = limit.rlim_cur;
-    std::ifstream meminfo("/proc/meminfo");
-    std::string key;
-    std::uint64_t kib = 0;
-    while (meminfo >> key) {
-        if (key == "MemAvailable:" && meminfo >> kib) return std::min(allowed, kib * 1024);
-    }
-    return allowed;
-}
-
 }  // namespace
 
 Expected<Lattice> place_grid(const GridOptions& options, const MeshView& mesh, const std::string& source) {
@@ -81,6 +67,19 @@ Expected<Lattice> place_grid(const GridOptions& options, const MeshView& mesh, c
     Expected<Lattice> lattice = fit_cube(*box, size);
     if (!lattice) return fail(source + ": " + lattice.error().message);
     return lattice;
+}
+
+std::uint64_t available_bytes() {
+    rlimit limit = {};
+    std::uint64_t allowed = std::numeric_limits<std::uint64_t>::max();
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) allowed = limit.rlim_cur;
+    std::ifstream meminfo("/proc/meminfo");
+    std::string key;
+    std::uint64_t kib = 0;
+    while (meminfo >> key) {
+        if (key == "MemAvailable:" && meminfo >> kib) return std::min(allowed, kib * 1024);
+    }
+    return allowed;
 }
 
 Expected<void> check_memory(std::uint64_t bytes, const std::string& what) {

@@ -111,8 +111,9 @@ public:
     Status crossings(const Region& region, CrossingLists& lists, SolidReport* report = nullptr);
 
     /// The whole lattice from the lowest layer up, at most `layers` (at least 1) at a time in one buffer, so that the
-    /// volume is never whole in memory. Faces below a slab are not visited again: each slab begins with the parities
-    /// that the one below it ended with. Cancelled also when `sink` answers false.
+    /// volume is never whole in memory. Each slab begins with the parities that the one below it ended with, so that
+    /// the columns of faces below it are not looked at again; it costs a pass over all triangles. Cancelled also when
+    /// `sink` answers false.
     Status slabs(std::uint32_t layers, const SlabSink& sink, SolidReport* report = nullptr);
 
     SolidTimes times() const;

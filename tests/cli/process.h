@@ -32,6 +32,7 @@ public:
 
     /// The next line of its standard output, or nothing when it has ended.
     std::optional<std::string> line();
+    pid_t pid() const { return pid_; }
     /// Sends SIGTERM and gives the exit status.
     int terminate();
 

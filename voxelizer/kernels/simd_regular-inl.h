@@ -32,43 +32,34 @@ struct Candidates {
 
 inline void find_candidates(const Vertices& vertices, const Triangles& triangles, std::size_t first,
                             Candidates& candidates) {
-    const hn::ScalableTag<std::uint32_t> d;
-    const hn::RebindToSigned<decltype(d)> di;
-    const hn::Repartition<std::uint16_t, decltype(d)> dh;
-    const std::size_t lanes = hn::Lanes(d);
-    const auto lower_half = hn::Set(d, 0xffff);
-    const auto zero = hn::Zero(d);
-    const auto* const keys = reinterpret_cast<const std::int32_t*>(vertices.keys);
+    // Three loads are faster here than lanes of gathers, and nothing is to be foreseen: each is written, few are kept.
+    std::uint32_t a[Candidates::kCapacity];
+    std::uint32_t b[Candidates::kCapacity];
+    std::uint32_t c[Candidates::kCapacity];
     std::size_t n = 0;
-    std::size_t t = first;
-    for (; t + lanes <= triangles.count; t += lanes) {
-        auto i0 = zero;
-        auto i1 = zero;
-        auto i2 = zero;
-        hn::LoadInterleaved3(d, triangles.indices + 3 * t, i0, i1, i2);
-        const auto k0 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i0)));
-        const auto k1 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i1)));
-        const auto k2 = hn::BitCast(dh, hn::GatherIndex(di, keys, hn::BitCast(di, i2)));
-        const auto low = hn::Min(hn::Min(k0, k1), k2);
-        const auto size = hn::BitCast(d, hn::Sub(hn::Max(hn::Max(k0, k1), k2), low));
-        const auto smaller = hn::Min(hn::And(size, lower_half), hn::ShiftRight<16>(size));
-        const auto covers = hn::Ne(smaller, zero);
-        if (hn::AllFalse(d, covers)) continue;
-        hn::StoreU(hn::Compress(hn::Iota(d, static_cast<std::uint32_t>(t)), covers), d, candidates.triangle + n);
-        hn::StoreU(hn::Compress(hn::BitCast(d, low), covers), d, candidates.low + n);
-        hn::StoreU(hn::Compress(size, covers), d, candidates.size + n);
-        n += hn::CountTrue(d, covers);
-    }
-    for (; t < triangles.count; ++t) {
-        const std::uint32_t* const index = triangles.indices + 3 * t;
-        const KeyBox box(vertices.keys[index[0]], vertices.keys[index[1]], vertices.keys[index[2]]);
-        if (box.is_empty()) continue;
+    const std::uint32_t* index = triangles.indices + 3 * first;
+    for (std::size_t t = first; t < triangles.count; ++t, index += 3) {
+        const std::uint32_t key_a = vertices.keys[index[0]];
+        const std::uint32_t key_b = vertices.keys[index[1]];
+        const std::uint32_t key_c = vertices.keys[index[2]];
+        const std::uint32_t differ = (key_a ^ key_b) | (key_a ^ key_c);
         candidates.triangle[n] = static_cast<std::uint32_t>(t);
-        candidates.low[n] = box.y() << 16 | box.x();
-        candidates.size[n] = box.height() << 16 | box.width();
-        ++n;
+        a[n] = key_a;
+        b[n] = key_b;
+        c[n] = key_c;
+        n += static_cast<std::size_t>((differ & 0xffff) != 0) & static_cast<std::size_t>(differ >> 16 != 0);
     }
     candidates.count = n;
+
+    const hn::ScalableTag<std::uint16_t> d;
+    const auto halves = [&](const std::uint32_t* keys, std::size_t i)
+                            HWY_ATTR { return hn::LoadU(d, reinterpret_cast<const std::uint16_t*>(keys + i)); };
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d) / 2) {
+        const auto low = hn::Min(hn::Min(halves(a, i), halves(b, i)), halves(c, i));
+        const auto high = hn::Max(hn::Max(halves(a, i), halves(b, i)), halves(c, i));
+        hn::StoreU(low, d, reinterpret_cast<std::uint16_t*>(candidates.low + i));
+        hn::StoreU(hn::Sub(high, low), d, reinterpret_cast<std::uint16_t*>(candidates.size + i));
+    }
 }
 
 inline bool cross_regular(const RegularPlan& plan, const Vertices& vertices, const Triangles& triangles,
