@@ -3,7 +3,7 @@
 packages_build="cmake ninja-build g++ pkg-config libglm-dev libexpected-dev libfmt-dev libtomlplusplus-dev libcli11-dev
     libpng-dev liblz4-dev libhwy-dev libgl-dev libegl-dev libegl1 libgl1-mesa-dri libosmesa6"
 packages_test="ccache catch2 clang clang-format libclang-rt-14-dev gcc-arm-none-eabi libnewlib-arm-none-eabi
-    libstdc++-arm-none-eabi-newlib qemu-system-arm zstd"
+    libstdc++-arm-none-eabi-newlib qemu-system-arm g++-aarch64-linux-gnu qemu-user zstd"
 
 # need PACKAGE …: installs what is missing, says so; changes nothing when all is there.
 need() {

@@ -3,7 +3,8 @@
 // exact below 2^53, as the constants in simd_regular-inl.h say; what is not, is left to voxelizer/kernels/direct.h.
 #include "voxelizer/kernels/kernel_table.h"
 
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+// Not every instruction set is worth its code, and vectors without a length are not foreseen.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "voxelizer/kernels/simd.cpp"
 #include <hwy/foreach_target.h>
