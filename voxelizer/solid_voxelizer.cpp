@@ -437,7 +437,7 @@ Status SolidVoxelizer::solid(const Region& region, BitVolumeView out, SolidRepor
 
 Status SolidVoxelizer::solid(const MeshBatches& next, const Region& region, BitVolumeView out, SolidReport* report) {
     return state_->run(report, [&](SolidReport& found) {
-        if (!state_->fits(out, region)) return Status::InvalidArgument;
+        if (!next || !state_->fits(out, region)) return Status::InvalidArgument;
         state_->prepare_region(region, Below::Counts, false);
         return state_->solid(&next, out, nullptr, found);
     });
@@ -456,7 +456,7 @@ Status SolidVoxelizer::crossings(const Region& region, CrossingLists& lists, Sol
 Status SolidVoxelizer::slabs(std::uint32_t layers, const SlabSink& sink, SolidReport* report) {
     return state_->run(report, [&](SolidReport& found) {
         State& s = *state_;
-        if (!s.has_mesh || !s.has_lattice || layers == 0) return Status::InvalidArgument;
+        if (!s.has_mesh || !s.has_lattice || layers == 0 || !sink) return Status::InvalidArgument;
         const Lattice& lattice = s.lattice;
         const std::uint32_t most = std::min(layers, lattice.nz);
         const std::size_t layer_words = volume_words(lattice.nx, lattice.ny, 1);

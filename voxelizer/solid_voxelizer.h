@@ -58,13 +58,15 @@ struct SolidTimes {
 };
 
 /// A source of triangle batches: fills its argument with the next batch, whose arrays must stay valid until the next
-/// call; false when there are no more. Each batch is a mesh of its own.
+/// call; false when there are no more. Each batch is a mesh of its own, and all its positions are snapped, used or not:
+/// give it only those that it needs.
 using MeshBatches = std::function<bool(MeshView&)>;
 
 /// Takes the layers z … z + volume.nz - 1; false stops.
 using SlabSink = std::function<bool(ConstBitVolumeView volume, std::uint32_t z)>;
 
-/// Hosted. One call at a time; different objects are independent. Functions answer OutOfMemory when the heap is
+/// Hosted. One call at a time; different objects are independent; an object that was moved from may only be destroyed
+/// or assigned to. Exceptions of the callers' functions pass through. Functions answer OutOfMemory when the heap is
 /// exhausted, and the object is then as it was before, but for its caches. A failed call leaves `out` untouched, except
 /// that after Cancelled, and after a failing later batch of a stream, `out` is incomplete: its contents are
 /// unspecified.

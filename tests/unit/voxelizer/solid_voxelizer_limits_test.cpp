@@ -79,6 +79,8 @@ TEST_CASE("wrong calls are refused and leave the output as it was") {
         CHECK(engine.crossings(region, lists) == Status::InvalidArgument);
     }
     CHECK(engine.slabs(0, [](ConstBitVolumeView, std::uint32_t) { return true; }) == Status::InvalidArgument);
+    CHECK(engine.slabs(1, {}) == Status::InvalidArgument);
+    CHECK(engine.solid(MeshBatches(), whole(lattice), out.view()) == Status::InvalidArgument);
     CHECK(engine.set_positions(std::span(box.positions).first(7)) == Status::InvalidArgument);
     CHECK(engine.set_lattice(integer_lattice({4097, 1, 1})) == Status::OutOfRange);
     CHECK(engine.set_lattice(integer_lattice({0, 1, 1})) == Status::InvalidArgument);
