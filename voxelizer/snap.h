@@ -4,14 +4,13 @@
 // integer, ties to even, each operation in double and in this order. The unit of q, length / steps, is about 2^-20 of
 // the lattice's longest side:
 //
-//   regular   length = pitch, steps = 2^s with s = 20 - ceil(log2 max(nx, ny, nz)); origin: the lattice's. The samples
-//   of
-//             index i stand at exactly (i + ½)·2^s = i·2^s + 2^(s-1), and 8 <= s <= 20.
+//   regular   length = pitch, steps = 2^s with s = 20 - ceil(log2 max(nx, ny, nz)); origin: the lattice's. The
+//             samples of index i stand at exactly (i + ½)·2^s = i·2^s + 2^(s-1), and 8 <= s <= 20.
 //   table     steps = 2^20, origin: the lowest corner of the samples' box. length: in x and y the longest side of the
-//   plan,
-//             in z the height of the box. A side of zero (one column, one layer) borrows the other's length; where both
-//             are zero, a single point, length is 1. The lowest sample of a column is snapped like any point; sample k
-//             stands round((z[k] - z[0]) / length · steps) above it. These rounded tables are the lattice from here on.
+//             plan, in z the height of the box. A side of zero (one column, one layer) borrows the other's length;
+//             where both are zero, a single point, length is 1. The lowest sample of a column is snapped like any
+//             point; sample k stands round((z[k] - z[0]) / length · steps) above it. These rounded tables are the
+//             lattice from here on.
 //
 // Freestanding; the functions are pure.
 #pragma once

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <new>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "voxelizer/kernels/kernel_table.h"
 #include "voxelizer/kernels/layers.h"
 #include "voxelizer/kernels/triangle_source.h"
+#include "voxelizer/resize_exactly.h"
 #include "voxelizer/workers.h"
 
 namespace xorvox {
@@ -20,6 +22,9 @@ using namespace kernels;
 
 /// Volumes larger than this do not stay in a cache, and are written past it.
 constexpr std::size_t kStreamBytes = std::size_t{24} << 20;
+
+/// Of the work on a mesh, what finding its crossings takes, for the progress that is told.
+constexpr double kCrossShare = 0.7;
 
 class Stopwatch {
 public:
@@ -53,8 +58,8 @@ struct SolidVoxelizer::State {
     Status snap(const MeshView& mesh, SolidReport& report);
     void pack();
     template <class Flush>
-    Status cross(const MeshView& mesh, const Flush& flush);
-    bool cross_more(Part& at, unsigned part);
+    Status cross(const MeshView& mesh, double share, const Flush& flush);
+    bool cross_more(Part& at, unsigned part, double share);
     void flush(bool first, BitVolumeView out);
     void finish(bool out_has_events, std::uint64_t* carry, BitVolumeView out);
     Status solid(const MeshBatches* next, BitVolumeView out, std::uint64_t* carry, SolidReport& report);
@@ -69,17 +74,26 @@ struct SolidVoxelizer::State {
         times = {};
         progress_from = 0;
         progress_to = 1;
+        told = 0;
         try {
             return job(found);
         } catch (const std::bad_alloc&) {
-            region.reset();
-            points_are_snapped = keys_are_packed = false;
+            forget();
             return Status::OutOfMemory;
+        } catch (...) {  // Of a caller's function.
+            forget();
+            throw;
         }
     }
+    void forget() {
+        region.reset();
+        points_are_snapped = keys_are_packed = false;
+    }
     bool is_stopped() const { return options.stop.stop_requested(); }
-    void tell(double fraction) const {
-        if (options.progress) options.progress(progress_from + (progress_to - progress_from) * fraction);
+    /// How much of the call, or of its slab, is done; less than before is not told.
+    void tell(double fraction) {
+        told = std::max(told, progress_from + (progress_to - progress_from) * fraction);
+        if (options.progress) options.progress(told);
     }
     LayerRange layers_of(unsigned part) const {
         const std::uint64_t nz = region->size.z;
@@ -124,6 +138,7 @@ struct SolidVoxelizer::State {
     SolidTimes times;
     double progress_from = 0;
     double progress_to = 1;
+    double told = 0;
 };
 
 SolidVoxelizer::State::State(SolidOptions given)
@@ -158,15 +173,9 @@ void SolidVoxelizer::State::prepare_region(const Region& wanted, Below below, bo
     }
     const std::size_t layer_words = volume_words(wanted.size.x, wanted.size.y, 1);
     const std::size_t bytes = options.event_bytes / workers.count();
-    const bool columns =
-        !by_layer && wanted.size.z <= kMaxColumnLayers && layer_words * 64 * sizeof(std::uint64_t) <= bytes;
     for (unsigned part = 0; part < workers.count(); ++part) {
-        if (columns) {
-            events[part].reserve_columns(layer_words * 64);
-        } else {
-            events[part].reserve_bins(wanted.size.z, bytes);
-            if (parities[part].size() < layer_words) parities[part].resize(layer_words);
-        }
+        events[part].reserve(wanted.size.z, layer_words * 64, bytes, by_layer);
+        if (parities[part].size() < layer_words) resize_exactly(parities[part], layer_words);
     }
     region = wanted;
 }
@@ -176,8 +185,8 @@ Status SolidVoxelizer::State::snap(const MeshView& from, SolidReport& report) {
     const Stopwatch watch(times.snap_ms);
     const std::size_t count = from.positions.size();
     points_are_snapped = keys_are_packed = false;
-    points.resize(count + 1);
-    keys.resize(count);
+    resize_exactly(points, count + 1);
+    resize_exactly(keys, count);
     workers.run([&](unsigned part) {
         const std::size_t begin = count * part / workers.count();
         const std::size_t size = count * (part + 1) / workers.count() - begin;
@@ -207,22 +216,25 @@ void SolidVoxelizer::State::pack() {
 }
 
 /// Pushes events of a thread's part until it is done, or there is no room for more.
-bool SolidVoxelizer::State::cross_more(Part& at, unsigned part) {
+bool SolidVoxelizer::State::cross_more(Part& at, unsigned part, double share) {
     const Vertices vertices{points.data(), keys.data()};
+    // Lanes of vertex numbers are signed.
+    const bool has_lanes = keys.size() <= std::size_t{std::numeric_limits<std::int32_t>::max()};
+    const KernelTable& kernel = has_lanes ? *table : kScalarTable;
     while (!is_stopped()) {
         if (at.progress.triangle == at.block.count) {
             at.block = at.source.next();
             at.progress = {};
-            if (part == 0) tell(0.7 * at.source.fraction());
+            if (part == 0) tell(share * at.source.fraction());
         }
         const bool ends = at.block.count == 0;
         bool done = false;
         if (lattice.is_regular()) {
-            done = ends ? table->cross_waiting_regular(regular, waiting[part], events[part])
-                        : table->cross_regular(regular, vertices, at.block, at.progress, waiting[part], events[part]);
+            done = ends ? kernel.cross_waiting_regular(regular, waiting[part], events[part])
+                        : kernel.cross_regular(regular, vertices, at.block, at.progress, waiting[part], events[part]);
         } else {
-            done = ends ? table->cross_waiting_table(tables, waiting[part], events[part])
-                        : table->cross_table(tables, vertices, at.block, at.progress, waiting[part], events[part]);
+            done = ends ? kernel.cross_waiting_table(tables, waiting[part], events[part])
+                        : kernel.cross_table(tables, vertices, at.block, at.progress, waiting[part], events[part]);
         }
         if (ends) return done;
         if (!done) return false;
@@ -231,9 +243,10 @@ bool SolidVoxelizer::State::cross_more(Part& at, unsigned part) {
     return false;
 }
 
-/// Pushes all events; calls flush(), which empties them, whenever there is no room for more.
+/// Pushes all events, `share` of what is to be told as progress; calls flush(), which empties them, whenever there is
+/// no room for more.
 template <class Flush>
-Status SolidVoxelizer::State::cross(const MeshView& from, const Flush& flush) {
+Status SolidVoxelizer::State::cross(const MeshView& from, double share, const Flush& flush) {
     const std::span<const std::uint32_t> list = triangle_list(from);
     parts.clear();
     for (unsigned part = 0; part < workers.count(); ++part) {
@@ -245,7 +258,7 @@ Status SolidVoxelizer::State::cross(const MeshView& from, const Flush& flush) {
         {
             const Stopwatch watch(times.cross_ms);
             workers.run([&](unsigned part) {
-                if (!parts[part].done) parts[part].done = cross_more(parts[part], part);
+                if (!parts[part].done) parts[part].done = cross_more(parts[part], part, share);
             });
         }
         if (is_stopped()) return Status::Cancelled;
@@ -291,7 +304,8 @@ void SolidVoxelizer::State::finish(bool out_has_events, std::uint64_t* carry, Bi
         for (std::uint32_t k = layers.begin; k < layers.end && !is_stopped(); k += kStep) {
             const LayerRange some{k, std::min(k + kStep, layers.end)};
             finish_layers(*table, events, some, parities[part].data(), out_has_events, stream, out);
-            if (part == 0) tell(0.7 + 0.3 * (some.end - layers.begin) / (layers.end - layers.begin));
+            if (part == 0)
+                tell(kCrossShare + (1.0 - kCrossShare) * (some.end - layers.begin) / (layers.end - layers.begin));
         }
     });
     if (carry != nullptr) std::copy_n(parities.back().begin(), words, carry);
@@ -312,14 +326,14 @@ Status SolidVoxelizer::State::solid(const MeshBatches* next, BitVolumeView out, 
             if (const Status status = snap(mesh, report); status != Status::Ok) return status;
         }
         if (!keys_are_packed) pack();
-        if (const Status status = cross(mesh, make_room); status != Status::Ok) return status;
+        if (const Status status = cross(mesh, kCrossShare, make_room); status != Status::Ok) return status;
     } else {
         for (MeshView batch; (*next)(batch); batch = {}) {
             if (const Status status = validate(batch, &report.bad_index); status != Status::Ok) return status;
             Status status = snap(batch, report);
             if (status == Status::Ok) {
                 pack();
-                status = cross(batch, make_room);
+                status = cross(batch, 0.0, make_room);  // How many batches will come is not known.
             }
             points_are_snapped = keys_are_packed = false;
             if (status != Status::Ok) return status;
@@ -344,13 +358,18 @@ Status SolidVoxelizer::State::crossings(CrossingLists& lists, SolidReport& repor
         keep_events(events, kept);
         clear_events(report);
     };
-    if (const Status status = cross(mesh, make_room); status != Status::Ok) return status;
+    if (const Status status = cross(mesh, kCrossShare, make_room); status != Status::Ok) return status;
     make_room();
     const Stopwatch watch(times.finish_ms);
     lists.nx = region->size.x;
     lists.ny = region->size.y;
     lists.nz = region->size.z;
-    list_crossings(kept, lists);
+    try {
+        list_crossings(kept, lists);
+    } catch (const std::bad_alloc&) {
+        lists = {};
+        throw;
+    }
     tell(1.0);
     return Status::Ok;
 }
@@ -360,6 +379,8 @@ SolidVoxelizer::SolidVoxelizer(SolidOptions options) {
     if (std::find(available.begin(), available.end(), options.kernel) == available.end()) {
         options.kernel = best_kernel();
     }
+    constexpr std::size_t kMostEventBytes = std::size_t{1} << (8 * sizeof(std::size_t) - 8);
+    options.event_bytes = std::min(options.event_bytes, kMostEventBytes);
     state_ = std::make_unique<State>(std::move(options));
 }
 

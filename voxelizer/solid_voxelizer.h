@@ -3,9 +3,8 @@
 //
 //   set_mesh        indices are checked once; positions may change later
 //   set_lattice     sample points; tables are sorted once
-//   solid           bits on the lattice, or on a region of it         as often as wanted: nothing is allocated again
-//   crossings       crossing lists
-//   slabs           a volume larger than memory, a few layers at a time
+//   solid           bits on the lattice, or on a region of it         nothing is allocated again where it was larger
+//   before crossings       crossing lists slabs           a volume larger than memory, a few layers at a time
 //
 // Parity along columns, with the apex of the simplicial covering (Rueda, Ogáyar, Segura, Feito: "Fast and Simple
 // Hardware Accelerated Voxelizations Using Simplicial Coverings", section 3) at infinity below. Vertices are snapped
@@ -41,7 +40,8 @@ inline constexpr unsigned kMaxSolidThreads = 256;
 struct SolidOptions {
     Kernel kernel = best_kernel();
     unsigned threads = 1;  ///< 1 to kMaxSolidThreads, the caller's own included.
-    /// Bytes for events, all threads together. More events than fit are worked off in rounds, which costs time.
+    /// Bytes for events, all threads together; each has at least 1 KiB for each layer, and 20 KiB. More events than fit
+    /// are worked off in rounds, which costs time.
     std::size_t event_bytes = std::size_t{16} << 20;
     /// Asked between blocks of triangles and between groups of layers: after a stop request the call ends with
     /// Cancelled.
@@ -109,7 +109,7 @@ public:
     /// batch).
     Status solid(const MeshBatches& next, const Region& region, BitVolumeView out, SolidReport* report = nullptr);
 
-    /// The crossing lists of a region. `lists` is overwritten and its memory reused.
+    /// The crossing lists of a region. `lists` is overwritten and its memory reused; after OutOfMemory it may be empty.
     Status crossings(const Region& region, CrossingLists& lists, SolidReport* report = nullptr);
 
     /// The whole lattice from the lowest layer up, at most `layers` (at least 1) at a time in one buffer, so that the

@@ -87,7 +87,9 @@ Error describe_failure(Status status, const MeshView& mesh, const Lattice& latti
     if (!is_inside(region, lattice)) return {describe_region_fault(lattice, region)};
     std::size_t bad_index = 0;
     if (validate(mesh, &bad_index) != Status::Ok) return {describe_mesh_fault(mesh, bad_index)};
-    if (status == Status::OutOfRange) return {describe_vertex_fault(mesh, report.bad_vertex)};
+    if (status == Status::OutOfRange && report.bad_vertex < mesh.positions.size()) {
+        return {describe_vertex_fault(mesh, report.bad_vertex)};
+    }
     return {fmt::format("a volume of another shape than {} x {} x {} was given for the result", region.size.x,
                         region.size.y, region.size.z)};
 }
@@ -104,6 +106,7 @@ Expected<BitVolume> voxelize(const MeshView& mesh, const Lattice& lattice, const
                              SolidReport* report) {
     SolidReport own_report;
     SolidReport& found = report == nullptr ? own_report : *report;
+    found = {};
     const auto failed = [&](Status status) { return tl::unexpected(describe_failure(status, mesh, lattice, found)); };
     if (const Status status = validate(lattice); status != Status::Ok) return failed(status);
     const double volume_bytes = 8.0 * static_cast<double>(volume_words(lattice.nx, lattice.ny, lattice.nz));

@@ -102,6 +102,7 @@ private:
 class Runs {
 public:
     Expected<void> add(AtomicFile& file, bool value, std::uint64_t length) {
+        if (length == 0) return {};  // Which would cut a run of the other value.
         if (value == value_) {
             length_ += length;
             return {};

@@ -69,6 +69,7 @@ struct VolumeWriter::State {
     SlabAxis axis;
     Lattice lattice;
     std::stop_token stop;
+    std::function<void(double)> progress;
     AtomicFile file;
     std::unique_ptr<VolumeEncoder> encoder;
     std::uint32_t written = 0;  // Planes.
@@ -86,9 +87,11 @@ struct VolumeWriter::State {
             return fail(fmt::format("{}: {} planes from plane {} along {} do not follow the {} of {} that are written",
                                     name, count, first, along_x ? 'x' : 'z', written, planes()));
         }
-        for (std::uint32_t i = 0; i < count; ++i, ++written) {
+        for (std::uint32_t i = 0; i < count; ++i) {
             if (stop.stop_requested()) return fail(name + ": stopped; nothing was written");
             if (auto ok = encoder->add(file, slab, i); !ok) return ok;
+            
+            if (progress) progress(static_cast<double>(written) / planes()); ++written;
         }
         return {};
     }
@@ -99,16 +102,17 @@ VolumeWriter::VolumeWriter(VolumeWriter&&) noexcept = default;
 VolumeWriter& VolumeWriter::operator=(VolumeWriter&&) noexcept = default;
 VolumeWriter::~VolumeWriter() = default;
 
-Expected<VolumeWriter> VolumeWriter::create(const std::string& path, const Lattice& lattice, std::stop_token stop) {
+Expected<VolumeWriter> VolumeWriter::create(const std::string& path, const Lattice& lattice, std::stop_token stop,
+                                            std::function<void(double)> progress) {
     auto format = format_of(path);
     if (!format) return tl::unexpected(std::move(format.error()));
     std::string name = printable_name(path);
     if (auto ok = check(name, *format, lattice); !ok) return tl::unexpected(std::move(ok.error()));
     auto file = AtomicFile::create(path);
     if (!file) return tl::unexpected(std::move(file.error()));
-    auto state =
-        std::make_unique<State>(State{std::move(name), *format == Format::Binvox ? SlabAxis::X : SlabAxis::Z, lattice,
-                                      std::move(stop), std::move(*file), encoder_of(*format, lattice)});
+    auto state = std::make_unique<State>(State{std::move(name), *format == Format::Binvox ? SlabAxis::X : SlabAxis::Z,
+                                               lattice, std::move(stop), std::move(progress), std::move(*file),
+                                               encoder_of(*format, lattice)});
     if (auto ok = state->encoder->begin(state->file); !ok) return tl::unexpected(std::move(ok.error()));
     return VolumeWriter(std::move(state));
 }

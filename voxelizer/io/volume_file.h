@@ -3,15 +3,13 @@
 // Equal bits on equal lattices give equal files: no date, name, method or machine is in them. All numbers are
 // little-endian. World coordinates are those of the lattice.
 //
-//   .nrrd    NRRD0004 with attached header; https://teem.sourceforge.net/nrrd/format.html. type uint8, 0 or 1 a voxel,
-//   raw,
-//            x fastest; `space origin` is the centre of voxel (0, 0, 0), `space directions` the pitches.
+//   .nrrd    NRRD0004 with attached header; https://teem.sourceforge.net/nrrd/format.html. type uint8, 0 or 1 a
+//            voxel, raw, x fastest; `space origin` is the centre of voxel (0, 0, 0), `space directions` the pitches.
 //
 //   .binvox  version 1; https://www.patrickmin.com/binvox/binvox.html. Runs of (value, length 1 to 255), y fastest,
-//   then z,
-//            then x. The format knows cubes of cubic voxels only: lattices of unequal pitch are refused, and a box with
-//            unequal sides is filled up to a cube with clear voxels beyond its far ends. With n voxels a side, voxel
-//            (i, j, k) stands at translate + scale · (i + ½, j + ½, k + ½) / n.
+//            then z, then x. The format knows cubes of cubic voxels only: lattices of unequal pitch are refused, and a
+//            box with unequal sides is filled up to a cube with clear voxels beyond its far ends. With n voxels a side,
+//            voxel (i, j, k) stands at translate + scale · (i + ½, j + ½, k + ½) / n.
 //
 //   .bits    our own: the words of the volume as they are in memory (voxelizer/bit_volume.h).
 //
@@ -23,6 +21,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -47,8 +46,11 @@ class VolumeWriter {
 public:
     /// Begins the file of a volume on `lattice`, which must be regular, pass validate() and be one that the format can
     /// tell; errors: these broken, an extension that check_volume_path() refuses, everything the file system says
-    /// (voxelizer/io/atomic_file.h says what paths may be written to). After a stop request write() fails.
-    static Expected<VolumeWriter> create(const std::string& path, const Lattice& lattice, std::stop_token stop = {});
+    /// (voxelizer/io/atomic_file.h says what paths may be written to). After a stop request write() fails. `progress`,
+    /// which may be empty, is told how many of the file's planes are written, as a part from 0 to 1; by write(), after
+    /// each plane.
+    static Expected<VolumeWriter> create(const std::string& path, const Lattice& lattice, std::stop_token stop = {},
+                                         std::function<void(double)> progress = {});
 
     VolumeWriter(VolumeWriter&&) noexcept;
     VolumeWriter& operator=(VolumeWriter&&) noexcept;

@@ -16,7 +16,7 @@ void EventBins::reserve(std::uint32_t layers, std::size_t bytes) {
     if (chunks > chunk_count_) {
         chunk_count_ = 0;
         chunks_.reset();
-        chunks_ = std::unique_ptr<Chunk[]>(new Chunk[chunks]);
+        chunks_.reset(static_cast<Chunk*>(::operator new (chunks * sizeof(Chunk), std::align_val_t{kChunkBytes})));
         chunk_count_ = chunks;
     }
     cursors_.resize(layers);
@@ -29,15 +29,11 @@ void EventBins::clear() {
     next_chunk_ = 0;
 }
 
-void Events::reserve_bins(std::uint32_t layers, std::size_t pool_bytes) {
+void Events::reserve(std::uint32_t layers, std::size_t layer_bits, std::size_t pool_bytes, bool in_bins) {
     columns_ = {};
     bins_.reserve(layers, pool_bytes);
-    count_ = 0;
-}
-
-void Events::reserve_columns(std::size_t layer_bits) {
-    if (column_words_.size() < layer_bits) column_words_.resize(layer_bits);
-    columns_ = std::span(column_words_).first(layer_bits);
+    const bool fits = layer_bits * sizeof(std::uint64_t) <= pool_bytes;
+    if (!in_bins && layers <= kMaxColumnLayers && fits) columns_ = bins_.borrow(layer_bits);
     clear();
 }
 

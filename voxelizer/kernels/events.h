@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,10 @@ class EventBins {
 public:
     /// `layers` empty bins, and a pool of `bytes`, or larger when a chunk for each bin needs more.
     void reserve(std::uint32_t layers, std::size_t bytes);
+    /// The pool, while nothing is binned: `count` words, which are not more than it has.
+    std::span<std::uint64_t> borrow(std::size_t count) {
+        return {reinterpret_cast<std::uint64_t*>(chunks_.get()), count};
+    }
     static std::size_t reserved_bytes(std::uint32_t layers, std::size_t bytes);
     void clear();
 
@@ -77,7 +82,12 @@ private:
         return words + kHeader;
     }
 
-    std::unique_ptr<Chunk[]> chunks_;
+    /// Memory without a type of its own: of chunks, or of the words that are borrowed.
+    struct Release {
+        void operator()(Chunk* chunks) const { ::operator delete (chunks, std::align_val_t{kChunkBytes}); }
+    };
+
+    std::unique_ptr<Chunk[], Release> chunks_;
     std::vector<std::uint32_t*> cursors_;
     std::size_t chunk_count_ = 0;
     std::size_t next_chunk_ = 0;
@@ -89,10 +99,9 @@ public:
     /// The most that are pushed after one question for room: the triangles of a batch, or a row of columns.
     static constexpr std::size_t kMaxPushed = 4096;
 
-    /// For volumes of `layers` layers, binned in a pool of `pool_bytes`.
-    void reserve_bins(std::uint32_t layers, std::size_t pool_bytes);
-    /// For volumes of at most kMaxColumnLayers layers with `layer_bits` bits each.
-    void reserve_columns(std::size_t layer_bits);
+    /// For volumes of `layers` layers, in a pool of `pool_bytes`; as columns if `layer_bits` words fit into it and
+    /// there are at most kMaxColumnLayers, unless they are wanted in bins. Whatever the form, the pool is the same.
+    void reserve(std::uint32_t layers, std::size_t layer_bits, std::size_t pool_bytes, bool in_bins);
     void clear();
 
     bool has_room(std::size_t events) const { return !columns_.empty() || bins_.has_room(events); }
@@ -114,8 +123,7 @@ public:
 
 private:
     EventBins bins_;
-    std::vector<std::uint64_t> column_words_;
-    std::span<std::uint64_t> columns_;  // Of column_words_; empty when events are binned.
+    std::span<std::uint64_t> columns_;  // Borrowed from the bins; empty when events are binned.
     std::size_t count_ = 0;
 };
 

@@ -17,7 +17,8 @@ namespace xorvox::kernels {
 
 /// Vertices on the snapping grid. keys[i] packs what a vertex is to the columns: on regular plans the first column and
 /// row at or beyond it, on tables one more than its cell, between 0 and the number of cells plus one, as (y << 16 | x).
-/// Triangles whose keys agree in a half cover no column. Behind the last point there are kPointSlack bytes that may be
+/// On regular plans triangles whose keys agree in a
+/// half cover no column. Behind the last point there are kPointSlack bytes that may be
 /// read.
 struct Vertices {
     const glm::ivec3* points = nullptr;

@@ -21,10 +21,11 @@ HWY_BEFORE_NAMESPACE();
 namespace xorvox::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Coordinates relative to a point near the triangle up to here keep every plane evaluation within its box, at most
-/// 3 · 2^51, exact in a double; up to the second one, every edge function.
-inline constexpr double kExactDepthReach = 0x1p17;
-inline constexpr double kExactEdgeReach = 0x1p25;
+/// Coordinates relative to a point near the triangle up to R = 2^16 keep every plane evaluation exact in a double, at
+/// columns within R as well: its edge functions are at most 8·R², and with heights up to R their sum is at most 24·R³,
+/// below 2^53. Up to the second one edge functions are exact: at most 2^51.
+inline constexpr double kExactDepthReach = 0x1p16;
+inline constexpr double kExactEdgeReach = 0x1p24;
 /// Where depth is not exact, its error in pitches is far below this; quotients as near to an integer are asked exactly.
 inline constexpr double kDoubtful = 0x1p-20;
 

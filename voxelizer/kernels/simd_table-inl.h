@@ -38,7 +38,7 @@ public:
         for (int i = 0; i < 3; ++i) {
             p[i][0] = static_cast<double>(std::int64_t{corners[i]->x} - t.a.x);
             p[i][1] = static_cast<double>(std::int64_t{corners[i]->y} - t.a.y);
-            p[i][2] = static_cast<double>(corners[i]->z - lowest_);
+            p[i][2] = static_cast<double>(std::int64_t{corners[i]->z} - lowest_);
             reach = std::max({reach, std::abs(p[i][0]), std::abs(p[i][1])});
             height = std::max(height, p[i][2]);
         }

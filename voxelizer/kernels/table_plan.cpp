@@ -6,6 +6,7 @@
 
 #include "voxelizer/column_flips.h"
 #include "voxelizer/kernels/plan.h"
+#include "voxelizer/resize_exactly.h"
 
 namespace xorvox::kernels {
 namespace {
@@ -51,7 +52,7 @@ std::size_t TablePlan::bytes(std::size_t columns) {
 
 void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Region& region) {
     const std::int32_t lowest_rise = snapped_rise(lattice, grid, region.begin.z);
-    rises_.resize(region.size.z);
+    resize_exactly(rises_, region.size.z);
     for (std::uint32_t k = 0; k < region.size.z; ++k) {
         rises_[k] = snapped_rise(lattice, grid, region.begin.z + k) - lowest_rise;
     }
@@ -63,7 +64,7 @@ void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Regio
     guess_shift_ = 0;
     while (guess_shift_ < 21 && (std::int64_t{2} << guess_shift_) <= least_step) ++guess_shift_;
     while ((static_cast<std::size_t>(rises_.back()) >> guess_shift_) >= kMostGuesses) ++guess_shift_;
-    guesses_.resize((static_cast<std::size_t>(rises_.back()) >> guess_shift_) + 1);
+    resize_exactly(guesses_, (static_cast<std::size_t>(rises_.back()) >> guess_shift_) + 1);
     guess_steps_ = 1;
     std::int32_t k = 0;
     for (std::size_t g = 0; g < guesses_.size(); ++g) {
@@ -121,7 +122,7 @@ void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Regio
         }
     }
     for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
-    columns_.resize(count + kColumnSlack);
+    resize_exactly(columns_, count + kColumnSlack);
     lowest_sample_ = std::numeric_limits<std::int32_t>::max();
     highest_sample_ = std::numeric_limits<std::int32_t>::min();
     for (std::size_t i = count; i-- > 0;) {

@@ -187,3 +187,20 @@ TEST_CASE("a disk that is full in a later slab leaves nothing") {
         CHECK(folder.names().empty());
     }
 }
+
+TEST_CASE("a writer tells its progress after each plane, up to 1") {
+    const TempFolder folder;
+    const Lattice lattice = grid(4, 3, 5);
+    for (const std::string name : {"a.nrrd", "a.bits", "a.binvox"}) {
+        CAPTURE(name);
+        std::vector<double> told;
+        auto made = io::VolumeWriter::create(folder / name, lattice, {}, [&](double part) { told.push_back(part); });
+        REQUIRE(made);
+        const BitVolume volume(lattice);
+        REQUIRE(made->write(volume.view(), 0));
+        CHECK(told.size() == (made->slab_axis() == io::SlabAxis::X ? 4 : 5));
+        CHECK(std::ranges::is_sorted(told));
+        CHECK(told.front() == Approx(1.0 / static_cast<double>(told.size())));
+        CHECK(told.back() == 1.0);
+    }
+}
