@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,10 +40,12 @@ struct Plan {
 };
 
 Expected<std::vector<std::string>> parse_methods(const std::string& text) {
-    std::vector<std::string> methods = split(text);
-    for (const std::string& method : methods) {
-        if (std::ranges::find(method_names(), method) != method_names().end()) continue;
-        return fail(fmt::format("--methods has '{}'; there are {}", method, fmt::join(method_names(), ", ")));
+    std::vector<std::string> methods;
+    for (const std::string& method : split(text)) {
+        if (std::ranges::find(method_names(), method) == method_names().end()) {
+            return fail(fmt::format("--methods has '{}'; there are {}", method, fmt::join(method_names(), ", ")));
+        }
+        if (std::ranges::find(methods, method) == methods.end()) methods.push_back(method);
     }
     return methods;
 }
@@ -89,6 +92,16 @@ SolidTimes median_times(std::span<const JobOutcome> outcomes) {
         return median(std::move(phases_ms));
     };
     return {median_of(&SolidTimes::snap_ms), median_of(&SolidTimes::cross_ms), median_of(&SolidTimes::finish_ms)};
+}
+
+/// Letters of the longest name, or of the word that stands above them.
+std::size_t width_of_names(const std::vector<Model>& models) {
+    std::size_t width = std::string_view("model").size();
+    for (const Model& model : models) {
+        const auto starts_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };  // of UTF-8
+        width = std::max(width, static_cast<std::size_t>(std::ranges::count_if(model.name, starts_letter)));
+    }
+    return width;
 }
 
 /// Refuses sizes for which there is no memory, before the first of them is measured.
@@ -176,17 +189,14 @@ Expected<void> bench_voxelize(const BenchOptions& options) {
         if (!file) return tl::unexpected(file.error());
         plot = std::move(*file);
     }
-    std::vector<Model> models;
-    for (const std::string& path : options.meshes) {
-        Expected<Model> model = read_model(path);
-        if (!model) return tl::unexpected(model.error());
-        models.push_back(std::move(*model));
-    }
-    if (const auto fits = check_sizes(models, *plan); !fits) return fits;
+    const Expected<std::vector<Model>> models = read_models(options.meshes);
+    if (!models) return tl::unexpected(models.error());
+    if (const auto fits = check_sizes(*models, *plan); !fits) return fits;
 
     std::vector<BenchResult> results;
-    if (!options.json) fmt::print("{}", bench_heading());
-    for (const Model& model : models) {
+    const std::size_t model_width = width_of_names(*models);
+    if (!options.json) fmt::print("{}", bench_heading(model_width));
+    for (const Model& model : *models) {
         for (const std::uint32_t size : plan->sizes) {
             Expected<std::vector<BenchResult>> measured;
             {
@@ -195,7 +205,7 @@ Expected<void> bench_voxelize(const BenchOptions& options) {
             }
             if (!measured) return tl::unexpected(measured.error());
             for (const BenchResult& result : *measured) {
-                if (!options.json) fmt::print("{}", bench_line(result));
+                if (!options.json) fmt::print("{}", bench_line(result, model_width));
                 results.push_back(result);
             }
             std::fflush(stdout);

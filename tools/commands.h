@@ -45,7 +45,7 @@ struct VoxelizeOptions {
 
     // Of the method "column":
     std::string kernel;                       ///< Empty: the best.
-    std::uint32_t threads = 0;                ///< 0: one a core.
+    std::optional<std::uint32_t> threads;     ///< None: one a core.
     std::optional<std::uint32_t> memory_mib;  ///< For volume and voxelizer; none: most of what is free.
     std::optional<Region> region;             ///< None: the whole grid.
 

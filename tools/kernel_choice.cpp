@@ -15,8 +15,9 @@ Expected<Kernel> choose_kernel(const std::string& name) {
     if (kernel && std::ranges::find(available, *kernel) != available.end()) return *kernel;
     std::vector<std::string> names;
     for (const Kernel one : available) names.emplace_back(to_string(one));
-    return fail(fmt::format("--kernel: {} '{}'; this program and machine have {}",
-                            kernel ? "not to be had here:" : "there is no", name, fmt::join(names, ", ")));
+    const std::string what = kernel ? fmt::format("this machine cannot run '{}'; it", name)
+                                    : fmt::format("there is no '{}'; this machine", name);
+    return fail(fmt::format("--kernel: {} can run {}", what, fmt::join(names, ", ")));
 }
 
 }  // namespace xorvox::tools

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -15,10 +16,12 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include "tools/bench/result.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/stop.h"
 #include "voxelizer/lattice.h"
+#include "voxelizer/solid_voxelizer.h"
 
 namespace {
 
@@ -26,13 +29,18 @@ using namespace xorvox;
 using namespace xorvox::tools;
 
 constexpr int kFailure = 2;
+constexpr std::uint32_t kMostMemory = std::numeric_limits<std::uint32_t>::max();  ///< MiB: more than any machine has.
 
-/// "64" into a number of voxels.
-std::uint32_t parse_count(const std::string& option, const std::string& text) {
+/// "64" into a number of things.
+std::uint32_t parse_count(const std::string& option, const std::string& text, std::uint32_t most) {
     std::uint32_t number = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || stop != text.data() + text.size()) {
+    if (stop != text.data() + text.size() || error == std::errc::invalid_argument) {
         throw CLI::ValidationError(option, fmt::format("'{}' is not a whole number", text));
+    }
+    if (error != std::errc() || number > most) {
+        throw CLI::ValidationError(option,
+                                   fmt::format("'{}' is too large; it takes whole numbers up to {}", text, most));
     }
     return number;
 }
@@ -128,8 +136,8 @@ void add_method(CLI::App& app, VoxelizeOptions& options) {
     app.add_option("--method", options.method,
                    "column: parity along columns, fast (the default); simplicial: tetrahedra between an apex and the "
                    "faces; reference: column, slow and simple. The bits of a closed mesh are the same")
-        ->check(CLI::IsMember({"column", "simplicial", "reference"}))
-        ->type_name("METHOD");
+        ->check(CLI::IsMember({"column", "simplicial", "reference"}).description(""))
+        ->type_name("column|simplicial|reference");
     const std::vector<CLI::Option*> of_column{
         app.add_option("--kernel", options.kernel,
                        "The instructions used: scalar, sse4, avx2, avx512 or neon (default: the best here)")
@@ -137,12 +145,13 @@ void add_method(CLI::App& app, VoxelizeOptions& options) {
         app.add_option_function<std::string>(
                "--threads",
                [&options](const std::string& text) {
-                   options.threads = text == "auto" ? 0 : parse_count("--threads", text);
+                   if (text != "auto") options.threads = parse_count("--threads", text, kMaxSolidThreads);
                },
                "Threads to work with; auto is one for each core (the default)")
             ->type_name("N|auto"),
         app.add_option_function<std::string>(
-               "--memory", [&options](const std::string& text) { options.memory_mib = parse_count("--memory", text); },
+               "--memory",
+               [&options](const std::string& text) { options.memory_mib = parse_count("--memory", text, kMostMemory); },
                "Memory for the volume and the work; a larger volume is written slab by slab (default: most of what is "
                "free)")
             ->type_name("MIB"),
@@ -166,6 +175,8 @@ void add_method(CLI::App& app, VoxelizeOptions& options) {
         app.add_flag("--signed", options.signed_sum,
                      "Look for faces of wrong orientation by the signed sum of the tetrahedra; the volume stays the "
                      "same")};
+    for (CLI::Option* option : of_column) option->group("Options of --method column");
+    for (CLI::Option* option : of_simplicial) option->group("Options of --method simplicial");
     app.parse_complete_callback([&options, of_column, of_simplicial] {
         const auto only_with = [&options](const std::string& method, const std::vector<CLI::Option*>& its_own) {
             if (options.method == method) return;
@@ -185,11 +196,13 @@ Command voxelize_command(CLI::App& program, VoxelizeOptions& options) {
     add_mesh(app, options.mesh);
     add_strict(app, options.mesh);
     app.add_option("-o,--output", options.output, "The volume: .nrrd, .binvox or .bits")->required()->type_name("OUT");
-    CLI::Option* size =
-        app.add_option_function<std::string>(
-               "--size", [&options](const std::string& text) { options.grid.size = parse_count("--size", text); },
-               "A cube of N voxels a side around the mesh, 1/64 of room on each side (default 64)")
-            ->type_name("N");
+    CLI::Option* size = app.add_option_function<std::string>(
+                               "--size",
+                               [&options](const std::string& text) {
+                                   options.grid.size = parse_count("--size", text, kMaxLatticeSide);
+                               },
+                               "A cube of N voxels a side around the mesh, 1/64 of room on each side (default 64)")
+                            ->type_name("N");
     add_vector(app, "--grid", options.grid.grid, false, "NX,NY,NZ",
                "Voxels along x, y and z; needs --origin and --pitch");
     add_vector(app, "--origin", options.grid.origin, false, "X,Y,Z",
@@ -225,8 +238,8 @@ Command show_command(CLI::App& program, ShowOptions& options) {
     app.add_option("--png", options.png, "A picture of the light; needs --to loopback")->type_name("OUT.png");
     app.add_option("--view", options.view,
                    "What --png draws: perspective (the default), or orthographic: front, side and top")
-        ->check(CLI::IsMember({"perspective", "orthographic"}))
-        ->type_name("VIEW");
+        ->check(CLI::IsMember({"perspective", "orthographic"}).description(""))
+        ->type_name("perspective|orthographic");
     app.add_flag("--hold", options.hold,
                  "Stay until interrupted. Without it a display goes dark when its watchdog (2 s) misses the host");
     app.add_flag("--json", options.json, "What was sent and what lit up, as one JSON object on standard output");
@@ -247,7 +260,7 @@ Command sim_command(CLI::App& program, SimOptions& options) {
         ->type_name("ADDRESS");
     app.add_flag("--json", options.json, "One JSON object a line on standard output, for every frame shown");
     examples(app, "  xorvox sim --display vortex --listen tcp:7777");
-    return {&app, [&options] { return sim(options); }};
+    return {&app, [&options] { return tools::sim(options); }};
 }
 
 Command bench_command(CLI::App& program, BenchOptions& options) {
@@ -280,7 +293,8 @@ Command bench_command(CLI::App& program, BenchOptions& options) {
         ->excludes(json);
     examples(app,
              "  xorvox bench voxelize bunny.ply dragon.ply --plot chart.png\n"
-             "  xorvox bench voxelize bunny.ply --sizes 256 --methods column --threads 1,2,4 --json");
+             "  xorvox bench voxelize bunny.ply --sizes 256 --methods column --threads 1,2,4 --json\n\n" +
+                 bench_json_fields());
     return {&bench, [&options] { return bench_voxelize(options); }};
 }
 
@@ -295,6 +309,14 @@ std::vector<std::string> command_names(const std::vector<Command>& commands) {
     std::vector<std::string> names;
     for (const Command& command : commands) names.push_back(command.app->get_name());
     return names;
+}
+
+/// The option of `app` that was given more often than it takes, or null.
+const CLI::Option* repeated_option(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_expected_max() == 1 && option->count() > 1) return option;
+    }
+    return nullptr;
 }
 
 /// CLI11's messages may run over several lines; ours never do.
@@ -342,8 +364,16 @@ int main_program(int argc, char** argv) {
         for (const Command& command : commands) {
             if (!command.app->parsed()) continue;
             std::string name = "xorvox " + command.app->get_name();
-            for (const CLI::App* part : command.app->get_subcommands()) name += ' ' + part->get_name();
+            const CLI::App* innermost = command.app;
+            for (const CLI::App* part : command.app->get_subcommands()) {
+                name += ' ' + part->get_name();
+                innermost = part;
+            }
             help = name + " --help";
+            const CLI::Option* const repeated = repeated_option(*innermost);
+            if (repeated != nullptr && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+                what = fmt::format("{} is given {} times; give it once", repeated->get_name(), repeated->count());
+            }
             // CLI11 lists these from the last to the first.
             if (const auto extra = command.app->remaining(true); !extra.empty()) {
                 what = fmt::format("'{}' is not known to {}", extra.front(), name);

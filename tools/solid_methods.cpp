@@ -1,5 +1,6 @@
 #include "tools/solid_methods.h"
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "tools/placement.h"
 #include "tools/stop.h"
 #include "voxelizer/io/volume_file.h"
+#include "voxelizer/snap.h"
 #include "voxelizer/solid.h"
 #include "voxelizer/voxelize.h"
 
@@ -89,6 +91,8 @@ Expected<SolidFile> voxelize_by_simplices(const VoxelizeOptions& options, const 
         if (status != Status::Ok) return failed(status);
     }
     file.set = volume.count();
+    const SnapGrid grid = snap_grid(lattice);
+    file.apex = grid.origin + glm::dvec3(report.apex) * grid.length / std::ldexp(1.0, static_cast<int>(grid.shift));
     if (const auto written = write(options, volume, lattice); !written) return tl::unexpected(written.error());
     return file;
 }

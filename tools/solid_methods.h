@@ -14,11 +14,12 @@ namespace xorvox::tools {
 
 /// What is in the file, and how it came about.
 struct SolidFile {
-    Lattice lattice;          ///< The grid, or --region of it.
-    std::uint64_t set = 0;    ///< Voxels.
-    std::string kernel{};     ///< Of the method "column"; else empty.
-    unsigned threads = 1;     ///< That worked on it.
-    std::uint32_t slabs = 0;  ///< Of the method "column": more than one, and it was never whole in memory.
+    Lattice lattice;                   ///< The grid, or --region of it.
+    std::uint64_t set = 0;             ///< Voxels.
+    std::string kernel{};              ///< Of the method "column"; else empty.
+    unsigned threads = 1;              ///< That worked on it.
+    std::uint32_t slabs = 0;           ///< Of the method "column": more than one, and it was never whole in memory.
+    std::optional<glm::dvec3> apex{};  ///< Of the method "simplicial", as snapped, in the units of the mesh.
     std::optional<InclusionReport> signs{};  ///< With --signed.
 };
 

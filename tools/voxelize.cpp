@@ -33,7 +33,10 @@ void print_json(const VoxelizeOptions& options, const SolidFile& file, std::size
     if (options.method == "column") {
         fmt::print(", \"kernel\": \"{}\", \"threads\": {}, \"slabs\": {}", file.kernel, file.threads, file.slabs);
     }
-    if (options.method == "simplicial") fmt::print(", \"sweep\": \"{}\"", name_of(options.simplicial.sweep));
+    if (options.method == "simplicial") {
+        fmt::print(", \"apex\": [{}, {}, {}], \"sweep\": \"{}\"", file.apex->x, file.apex->y, file.apex->z,
+                   name_of(options.simplicial.sweep));
+    }
     if (const auto& signs = file.signs) {
         fmt::print(
             ", \"signed\": {{\"outside\": {}, \"inside\": {}, \"negative\": {}, \"multiple\": {}, \"lowest\": {}, "
@@ -43,13 +46,18 @@ void print_json(const VoxelizeOptions& options, const SolidFile& file, std::size
     fmt::print("}}\n");
 }
 
-void print_text(const VoxelizeOptions& options, const SolidFile& file) {
+void print_text(const VoxelizeOptions& options, const SolidFile& file, bool is_open) {
     const Lattice& grid = file.lattice;
     fmt::print("{}: {} of {} × {} × {} = {} voxels set\n", options.output, thousands(file.set), grid.nx, grid.ny,
                grid.nz, thousands(grid.sample_count()));
     const auto& signs = file.signs;
     if (!signs) return;
-    if (signs->is_consistent()) {
+    if (is_open) {
+        fmt::print(
+            "signed sums: {} voxels 1, {} below 0, {} above 1; the mesh is open, and so they say nothing about the "
+            "orientation of its faces\n",
+            thousands(signs->inside), thousands(signs->negative), thousands(signs->multiple));
+    } else if (signs->is_consistent()) {
         fmt::print("signed sums: {} voxels 1, the others 0; no fault of orientation and no overlap\n",
                    thousands(signs->inside));
     } else {
@@ -83,7 +91,7 @@ Expected<void> voxelize(const VoxelizeOptions& options) {
     if (options.json) {
         print_json(options, *file, input->report.open_edges);
     } else {
-        print_text(options, *file);
+        print_text(options, *file, input->report.open_edges > 0);
     }
     return {};
 }

@@ -151,10 +151,14 @@ std::string json(const Comparison& c) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const Expected<Arguments> arguments = parse_arguments(argc, argv, "64,256,512,1024");
+    const Expected<Arguments> arguments = parse_arguments(argc, argv, "64,256,512,1024", true);
     if (!arguments) {
         complain(arguments.error().message);
         return 2;
+    }
+    if (arguments->help) {
+        fmt::print("{}\n", arguments->usage);
+        return 0;
     }
     const char* separator = "[\n";
     for (const Model& model : arguments->models) {

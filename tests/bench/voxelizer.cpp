@@ -237,14 +237,14 @@ void measure_tables(const Model& model, const Lattice& regular) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const Expected<Arguments> arguments = parse_arguments(argc, argv, "64,256,512,1024");
+    const Expected<Arguments> arguments = parse_arguments(argc, argv, "64,256,512,1024", false);
     if (!arguments) {
         complain(arguments.error().message);
         return 2;
     }
-    if (arguments->json) {
-        complain("bench_voxelizer has no --json; xorvox bench voxelize has");
-        return 2;
+    if (arguments->help) {
+        fmt::print("{}\n", arguments->usage);
+        return 0;
     }
     for (const Model& model : arguments->models) {
         for (const std::uint32_t size : arguments->sizes) {

@@ -1,8 +1,11 @@
 // `xorvox bench`: what it prints, not how fast anything is.
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -78,12 +81,20 @@ private:
     std::string_view text_;
 };
 
+/// Whether bench complains of nothing but a busy machine, which is no fault of it.
+bool is_calm(const std::string& err) {
+    static const std::regex kBusy(
+        "xorvox: warning: other programs ran at the same time: [0-9]+ of [0-9]+ medians are too long by more than a "
+        "tenth\n");
+    return err.empty() || std::regex_match(err, kBusy);
+}
+
 Outcome bench(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"bench", "voxelize", "--quick"});
     Outcome outcome = run_program(arguments);
     CAPTURE(arguments, outcome.out, outcome.err);
     REQUIRE(outcome.status == 0);
-    REQUIRE(outcome.err.empty());
+    REQUIRE(is_calm(outcome.err));
     return outcome;
 }
 
@@ -159,8 +170,9 @@ TEST_CASE("bench voxelize measures the kernel that is asked for", "[cli]") {
 
 TEST_CASE("bench voxelize --tables sets the times of stand-ins beside those of the paper", "[cli]") {
     const Folder folder;
-    const std::string out =
-        bench({folder.file("gem24.obj", cube_obj(1.0)), "--sizes", "64", "--methods", "column", "--tables"}).out;
+    const std::string gem = folder.file("gem24.obj", cube_obj(1.0));
+    const std::string dragon = folder.file("dragon100k.obj", cube_obj(1.0));
+    const std::string out = bench({gem, dragon, "--sizes", "64", "--methods", "column", "--tables"}).out;
     CHECK_THAT(out, Catch::Contains("Table 2") && Catch::Contains("Table 3") && Catch::Contains("Table 4"));
     CHECK_THAT(out, Catch::Contains("9.2517") && Catch::Contains("18.0581") && Catch::Contains("Rueda"));
     const std::size_t row = out.find("Simple (25), gem24 ");
@@ -170,6 +182,53 @@ TEST_CASE("bench voxelize --tables sets the times of stand-ins beside those of t
     CHECK_THAT(simple, Catch::Contains("0.0563 |") && Catch::Contains(" - |"));  // at 128 nothing was measured
     const std::string ours = simple.substr(simple.find("0.0563 |") + 8);
     CHECK(std::stod(ours) > 0.0);
+}
+
+TEST_CASE("bench voxelize --tables leaves out the models that are not given", "[cli]") {
+    const Folder folder;
+    const std::string gem = folder.file("gem24.obj", cube_obj(1.0));
+    const std::string out = bench({gem, "--sizes", "64", "--methods", "column", "--tables"}).out;
+    CHECK_THAT(out, Catch::Contains("gem24") && !Catch::Contains("dragon100k"));
+    const std::string none = bench({kDuck, "--sizes", "8", "--methods", "column", "--tables"}).out;
+    CHECK_THAT(none, Catch::Contains("No tables") && Catch::Contains("dragon100k") && !Catch::Contains("Table 2"));
+}
+
+TEST_CASE("bench voxelize measures what is given twice once, and tells namesakes apart", "[cli]") {
+    const Folder folder;
+    std::filesystem::create_directory(folder.path("a"));
+    std::filesystem::create_directory(folder.path("b"));
+    const std::string first = folder.file("a/cube.obj", cube_obj(1.0));
+    const std::string second = folder.file("b/cube.obj", cube_obj(2.0));
+    const std::vector<Object> results = bench_json({first, second, first, "--sizes", "8,8", "--methods",
+                                                    "column,column", "--threads", "1,1", "--kernel", "scalar"});
+    REQUIRE(results.size() == 2);
+    CHECK(results[0].at("model") == "a/cube");
+    CHECK(results[1].at("model") == "b/cube");
+
+    std::filesystem::create_directories(folder.path("c/a"));
+    const std::string third = folder.file("c/a/cube.obj", cube_obj(3.0));  // its folder does not tell it from the first
+    const std::vector<Object> paths =
+        bench_json({first, third, "--sizes", "8", "--methods", "column", "--threads", "1"});
+    REQUIRE(paths.size() == 2);
+    CHECK(paths[0].at("model") == first);
+    CHECK(paths[1].at("model") == third);
+}
+
+TEST_CASE("bench voxelize sets its columns apart, however long a name is", "[cli]") {
+    const Folder folder;
+    const std::string cube = folder.file("a-cube-with-a-name-of-very-many-letters.obj", cube_obj(1.0));
+    const std::string out = bench({kDuck, cube, "--sizes", "8", "--methods", "column", "--threads", "1"}).out;
+    std::istringstream lines(out);
+    std::string heading;
+    std::getline(lines, heading);
+    CHECK_THAT(heading, Catch::Contains("finish ms") && Catch::Contains("floor ms  ÷ floor"));
+    const std::size_t sizes_end = heading.find("size") + 4;
+    std::size_t results = 0;
+    for (std::string line; std::getline(lines, line); ++results) {
+        CAPTURE(line);
+        CHECK(line.substr(sizes_end - 3, 5) == "  8  ");
+    }
+    CHECK(results == 2);
 }
 
 TEST_CASE("bench voxelize --plot writes a picture and nothing else", "[cli]") {

@@ -60,9 +60,9 @@ long number(const std::string& json, const std::string& name) {
 /// The kernels of this program and machine, which the refusal of a wrong one lists.
 Arguments kernels() {
     const std::string listed = refusal({"--kernel", "none"});
-    const std::size_t at = listed.find(" have ");
+    const std::size_t at = listed.find(" can run ");
     REQUIRE(at != std::string::npos);
-    std::istringstream words(listed.substr(at + 6));
+    std::istringstream words(listed.substr(at + 9));
     Arguments names;
     for (std::string name; words >> name;) names.push_back(name.substr(0, name.find(',')));
     return names;
@@ -137,6 +137,25 @@ TEST_CASE("a volume larger than the memory allowed is written slab by slab, and 
     CHECK_THAT(refusal({"--memory", "0"}), Catch::Contains("needs at least") && Catch::Contains("--memory allows 0"));
 }
 
+TEST_CASE("the memory that a refusal asks for is enough, and less is not", "[cli]") {
+    // One layer, whose bytes decide; among these is a least amount little below a whole number of MiB.
+    for (int side = 400; side <= 1000; side += 50) {
+        CAPTURE(side);
+        const std::string count = std::to_string(side);
+        const auto with_memory = [&](int mib) {
+            return Arguments{"--grid",   count + "," + count + ",1", "--origin", "-60,-60,30", "--pitch", "0.1",
+                             "--memory", std::to_string(mib)};
+        };
+        const std::string before = "needs at least ";
+        const std::string text = refusal(with_memory(0));
+        REQUIRE_THAT(text, Catch::Contains(before));
+        const int least = std::stoi(text.substr(text.find(before) + before.size()));
+        CHECK_THAT(refusal(with_memory(least - 1)), Catch::Contains(before + std::to_string(least) + " MiB"));
+        const Folder folder;
+        says(voxelize(kDuck, folder.path("a.bits"), with_memory(least)));
+    }
+}
+
 TEST_CASE("a region is that part of the grid, at its place", "[cli]") {
     const Folder folder;
     const std::string cube = folder.file("cube.obj", cube_obj(4.0));
@@ -177,6 +196,22 @@ TEST_CASE("signed sums tell a face that runs against its neighbours, and leave t
     CHECK(number(faulty, "negative") > 0);
     CHECK(number(faulty, "lowest") == -1);
     CHECK(number(faulty, "set") == number(consistent, "set"));
+
+    const std::string open = folder.file("open.obj", cube_obj(4.0, true));
+    const Outcome unknown = run_program(voxelize(open, out, options));
+    CHECK(unknown.status == 0);
+    CHECK_THAT(unknown.out, Catch::Contains("the mesh is open") && !Catch::Contains("no fault"));
+}
+
+TEST_CASE("the apex that was used is told, in the units of the mesh", "[cli]") {
+    const Folder folder;
+    const std::string cube = folder.file("cube.obj", cube_obj(4.0));
+    const std::string out = folder.path("a.nrrd");
+    const Arguments grid{"--grid", "8,8,8", "--origin", "-1,-1,-1", "--pitch", "1", "--method", "simplicial", "--json"};
+    CHECK_THAT(says(voxelize(cube, out, grid)), Catch::Contains("\"apex\": [2, 2, 2]"));
+    Arguments given = grid;
+    given.insert(given.end(), {"--apex", "0.5,-3,2"});
+    CHECK_THAT(says(voxelize(cube, out, given)), Catch::Contains("\"apex\": [0.5, -3, 2]"));
 }
 
 TEST_CASE("options of one method are refused with another", "[cli]") {
@@ -198,6 +233,9 @@ TEST_CASE("methods, kernels, threads, apexes and sweeps that are none are refuse
                                                    Catch::Contains("column") && Catch::Contains("simplicial"));
     CHECK_THAT(refusal({"--kernel", "avx9"}), Catch::Contains("'avx9'") && Catch::Contains("scalar"));
     CHECK_THAT(refusal({"--threads", "many"}), Catch::Contains("--threads") && Catch::Contains("many"));
+    CHECK_THAT(refusal({"--threads", "0"}), Catch::Contains("--threads") && Catch::Contains("1 to 256"));
+    CHECK_THAT(refusal({"--memory", "99999999999"}), Catch::Contains("--memory") && Catch::Contains("4294967295"));
+    CHECK_THAT(refusal({"--size", "8", "--size", "9"}), Catch::Contains("--size is given 2 times"));
     CHECK_THAT(refusal({"--threads", "257"}), Catch::Contains("257") && Catch::Contains("256"));
     CHECK_THAT(refusal({"--method", "simplicial", "--apex", "1,2"}), Catch::Contains("--apex: '1,2'"));
     CHECK_THAT(refusal({"--method", "simplicial", "--apex", "0,0,1e300"}), Catch::Contains("--apex"));

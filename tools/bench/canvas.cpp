@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -93,6 +94,13 @@ void Canvas::square(glm::dvec2 center, double radius, Color color) {
     paint(center - radius, center + radius, color, [&](glm::dvec2 p) {
         const glm::dvec2 away = glm::abs(p - center);
         return coverage(std::max(away.x, away.y) - radius);
+    });
+}
+
+void Canvas::diamond(glm::dvec2 center, double radius, Color color) {
+    paint(center - radius, center + radius, color, [&](glm::dvec2 p) {
+        const glm::dvec2 away = glm::abs(p - center);
+        return coverage((away.x + away.y - radius) / std::numbers::sqrt2);
     });
 }
 

@@ -29,6 +29,8 @@ public:
     void disc(glm::dvec2 center, double radius, Color color);
     /// With sides of 2 · `radius`.
     void square(glm::dvec2 center, double radius, Color color);
+    /// With diagonals of 2 · `radius`.
+    void diamond(glm::dvec2 center, double radius, Color color);
     /// `text` with the left end of the line that its letters stand on at `at`.
     void text(glm::ivec2 at, std::string_view text, Color color);
 

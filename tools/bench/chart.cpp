@@ -32,6 +32,7 @@ constexpr int kBottom = 70;
 constexpr int kLegendRow = 34;
 constexpr int kLegendGap = 36;
 constexpr int kSample = 44;  ///< A line in the legend.
+constexpr int kLabelGap = 8;
 
 /// What a line or spot means: its model, method and number of threads as places in lists.
 struct Style {
@@ -110,14 +111,21 @@ public:
         y_.lay_out(kPanelHeight - kTop - kBottom);
     }
 
-    void frame(std::string_view title, std::string_view x_title, std::span<const double> x_ticks,
-               std::string (*x_label)(double)) {
-        canvas_.text({left_ + kLeft, 30}, title, kInk);
+    /// Ascending ticks; their labels are left out where they would touch the one before.
+    void frame(std::string_view title, std::string_view subtitle, std::string_view x_title,
+               std::span<const double> x_ticks, std::string (*x_label)(double)) {
+        canvas_.text({left_ + kLeft, 22}, title, kInk);
+        canvas_.text({left_ + kLeft, 42}, subtitle, kInk);
         canvas_.text({left_ + 16, 56}, "ms", kInk);
+        double taken = left_;  // By labels, up to here.
         for (const double tick : x_ticks) {
             const glm::dvec2 foot = at(tick, y_.low());
             canvas_.line(foot, at(tick, y_.high()), 1.0, kGrid);
-            centered(x_label(tick), foot + glm::dvec2(0.0, 12 + text_height()));
+            const std::string label = x_label(tick);
+            const double half = 0.5 * text_width(label);
+            if (foot.x - half < taken + kLabelGap) continue;
+            centered(label, foot + glm::dvec2(0.0, 12 + text_height()));
+            taken = foot.x + half;
         }
         for (const double tick : y_.ticks()) {
             const glm::dvec2 foot = at(x_.low(), tick);
@@ -161,10 +169,18 @@ private:
     LogAxis y_;
 };
 
-void spot(Canvas& canvas, glm::dvec2 at, Color color, std::size_t threads) {
-    if (threads % 3 == 2) return canvas.square(at, 4.5, color);
-    canvas.disc(at, 4.5, color);
-    if (threads % 3 == 1) canvas.disc(at, 2.5, kPaper);
+/// A shape for each round of colours, full, hollow or with a hole by the number of threads.
+void spot(Canvas& canvas, glm::dvec2 at, const Style& style, Color color) {
+    const auto draw = [&](double radius, Color ink) {
+        switch (style.model / kColors.size() % 3) {
+            case 0: return canvas.disc(at, radius, ink);
+            case 1: return canvas.square(at, radius, ink);
+            default: return canvas.diamond(at, 1.4 * radius, ink);
+        }
+    };
+    draw(5.0, color);
+    if (style.threads % 3 == 1) draw(3.2, kPaper);
+    if (style.threads % 3 == 2) draw(1.8, kPaper);
 }
 
 Dashes dashes_of(std::size_t method) {
@@ -234,14 +250,14 @@ private:
         for (const auto& point : points) values.push_back(point.first);
         panel.line(values, color, dashes);
         for (const auto& [value, style] : points) {
-            spot(canvas, panel.at(value.x, value.y), color_of(style.model), style.threads);
+            spot(canvas, panel.at(value.x, value.y), style, color_of(style.model));
         }
     }
 
     void draw_sizes(Canvas& canvas) {
         const Value size = [](const BenchResult& r) { return r.size; };
         Panel panel(canvas, 0, axis_of(size, false), axis_of(kTime, false));
-        panel.frame("time against size", "samples a side", std::vector<double>(sizes_.begin(), sizes_.end()),
+        panel.frame("time against size", "", "samples a side", std::vector<double>(sizes_.begin(), sizes_.end()),
                     whole_number);
         panel.guide(2.0, slowest(size), "- - as the square of size");
         for (std::size_t model = 0; model < models_.size(); ++model) {
@@ -272,14 +288,18 @@ private:
         LogAxis x = axis_of(triangles, true);
         x.include(x.low() * std::pow(x.low() / x.high(), 0.15));  // room for the labels
         Panel panel(canvas, 1, x, axis_of(kTime, true));
-        panel.frame("time against triangles: " + first, "triangles", panel.x().ticks(), short_number);
+        panel.frame("time against triangles", first, "triangles", panel.x().ticks(), short_number);
         const BenchResult& most = *by_triangles(sizes_.front()).back();
         panel.guide(1.0, {triangles(most), most.ms}, "- - in proportion");
+        std::vector<double> heights;  // Of labels.
         for (const std::uint32_t size : sizes_) {
             const auto is_of = [&](std::size_t i) { return is_first(i) && results_[i].size == size; };
             series(canvas, panel, triangles, is_of, kGuide, {});
             const BenchResult& fewest = *by_triangles(size).front();
             const glm::dvec2 start = panel.at(triangles(fewest), fewest.ms);
+            const auto touches = [&](double y) { return std::abs(start.y - y) < text_height() + 4; };
+            if (std::ranges::any_of(heights, touches)) continue;
+            heights.push_back(start.y);
             const std::string label = std::to_string(size);
             canvas.text(glm::ivec2(start) + glm::ivec2(-10 - text_width(label), text_height() / 2), label, kInk);
         }
@@ -288,7 +308,7 @@ private:
     void draw_surface(Canvas& canvas, const std::string& first) {
         const Value surface = [](const BenchResult& r) { return static_cast<double>(r.surface); };
         Panel panel(canvas, 2, axis_of(surface, true), axis_of(kTime, true));
-        panel.frame("time against surface: " + first, "surface voxels", panel.x().ticks(), short_number);
+        panel.frame("time against surface", first, "surface voxels", panel.x().ticks(), short_number);
         panel.guide(1.0, slowest(surface), "- - in proportion");
         for (std::size_t model = 0; model < models_.size(); ++model) {
             const auto is_of = [&](std::size_t i) { return is_first(i) && styles_[i].model == model; };
@@ -318,11 +338,18 @@ private:
                 c.line(ends, dashes.empty() ? 3.0 : 2.0, color, dashes);
             };
         };
-        for (std::size_t i = 0; i < models_.size(); ++i) entry(models_[i], stroke(color_of(i), {}));
+        for (std::size_t i = 0; i < models_.size(); ++i) {
+            entry(models_[i], [&stroke, i](Canvas& c, glm::dvec2 left) {
+                stroke(color_of(i), {})(c, left);
+                spot(c, left + glm::dvec2(0.5 * kSample, 0.0), {.model = i}, color_of(i));
+            });
+        }
         for (std::size_t i = 0; i < methods_.size(); ++i) entry(methods_[i], stroke(kInk, dashes_of(i)));
         for (std::size_t i = 0; i < threads_.size(); ++i) {
             entry(fmt::format("{} thread{}", threads_[i], threads_[i] == 1 ? "" : "s"),
-                  [i](Canvas& c, glm::dvec2 left) { spot(c, left + glm::dvec2(0.5 * kSample, 0.0), kInk, i); });
+                  [i](Canvas& c, glm::dvec2 left) {
+                      spot(c, left + glm::dvec2(0.5 * kSample, 0.0), {.threads = i}, kInk);
+                  });
         }
         return rows;
     }

@@ -31,10 +31,12 @@ Expected<std::vector<std::uint32_t>> parse_numbers(std::string_view option, std:
             return fail(fmt::format("{} has '{}'; it takes whole numbers from 1 to {} with commas between them", option,
                                     part, most));
         }
-        numbers.push_back(number);
+        if (std::ranges::find(numbers, number) == numbers.end()) numbers.push_back(number);
     }
     return numbers;
 }
+
+namespace {
 
 Expected<Model> read_model(const std::string& path) {
     Expected<MeshInput> input = read_solid({.path = path});
@@ -46,6 +48,36 @@ Expected<Model> read_model(const std::string& path) {
     }
     return Model{std::filesystem::path(path).stem().string(), path, std::move(input->mesh), input->report.triangles,
                  *box};
+}
+
+/// Gives new names to models that share theirs.
+template <class Name>
+void rename_namesakes(std::vector<Model>& models, const Name& name) {
+    std::vector<Model*> namesakes;
+    for (Model& model : models) {
+        if (std::ranges::count(models, model.name, &Model::name) > 1) namesakes.push_back(&model);
+    }
+    for (Model* const model : namesakes) model->name = name(*model);
+}
+
+std::string name_with_folder(const Model& model) {
+    const std::filesystem::path path = std::filesystem::absolute(model.path);
+    return (path.parent_path().filename() / path.stem()).string();
+}
+
+}  // namespace
+
+Expected<std::vector<Model>> read_models(const std::vector<std::string>& paths) {
+    std::vector<Model> models;
+    for (const std::string& path : paths) {
+        if (std::ranges::find(models, path, &Model::path) != models.end()) continue;
+        Expected<Model> model = read_model(path);
+        if (!model) return tl::unexpected(model.error());
+        models.push_back(std::move(*model));
+    }
+    rename_namesakes(models, name_with_folder);
+    rename_namesakes(models, [](const Model& model) { return model.path; });
+    return models;
 }
 
 }  // namespace xorvox::tools

@@ -116,6 +116,10 @@ std::vector<std::string> measured_methods(std::span<const BenchResult> results) 
     return methods;
 }
 
+bool is_measured(std::span<const BenchResult> results, const PaperModel& model) {
+    return std::ranges::find(results, model.stand_in, &BenchResult::model) != results.end();
+}
+
 struct PaperColumn {
     const char* name;
     const double (PaperModel::*times)[kSizeCount];
@@ -131,6 +135,7 @@ std::string table(std::span<const BenchResult> results, std::size_t first, std::
         for (const std::string& method : methods) rows[0].push_back(fmt::format("{}³ **{}**", kSizes[s], method));
     }
     for (const PaperModel& model : kPaper) {
+        if (!is_measured(results, model)) continue;
         Row& row = rows.emplace_back(Row{fmt::format("{} ({}), {}", model.name, model.triangles, model.stand_in)});
         for (std::size_t s = first; s < first + sizes; ++s) {
             for (const PaperColumn& column : columns) row.push_back(printed((model.*column.times)[s]));
@@ -145,6 +150,12 @@ std::string table(std::span<const BenchResult> results, std::size_t first, std::
 }  // namespace
 
 std::string paper_tables(std::span<const BenchResult> results) {
+    if (std::ranges::none_of(kPaper, [&](const PaperModel& model) { return is_measured(results, model); })) {
+        std::vector<std::string> stand_ins;
+        for (const PaperModel& model : kPaper) stand_ins.emplace_back(model.stand_in);
+        return fmt::format("No tables: none of the models that stand in for the paper's is given: {}\n",
+                           fmt::join(stand_ins, ", "));
+    }
     constexpr PaperColumn kTables2And3[] = {
         {"HA", &PaperModel::ha}, {"VP", &PaperModel::vp}, {"Sramek", &PaperModel::sramek}};
     constexpr PaperColumn kTable4[] = {{"VA", &PaperModel::va}, {"DL", &PaperModel::dl}};

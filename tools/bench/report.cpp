@@ -9,7 +9,7 @@ namespace xorvox::tools {
 namespace {
 
 constexpr const char* kLine =
-    "{:<16} {:>5} {:<11} {:<7} {:>7} {:>10} {:>9} {:>9} {:>9} {:>9} {:>7} {:>12} {:>9} {:>13}\n";
+    "{:<{}}  {:>5}  {:<10}  {:<6}  {:>7}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>7}  {:>11}  {:>8}  {:>13}\n";
 
 /// Four digits that matter, none of them in an exponent.
 std::string digits(double ms) {
@@ -22,15 +22,15 @@ double ns_a_crossing(const BenchResult& r) {
 
 }  // namespace
 
-std::string bench_heading() {
-    return fmt::format(kLine, "model", "size", "method", "kernel", "threads", "ms", "snap ms", "cross ms", "finish ms",
-                       "floor ms", "/ floor", "crossings", "ns each", "voxels set");
+std::string bench_heading(std::size_t model_width) {
+    return fmt::format(kLine, "model", model_width, "size", "method", "kernel", "threads", "ms", "snap ms", "cross ms",
+                       "finish ms", "floor ms", "÷ floor", "crossings", "ns each", "voxels set");
 }
 
-std::string bench_line(const BenchResult& r) {
+std::string bench_line(const BenchResult& r, std::size_t model_width) {
     const bool phases = !r.kernel.empty();
     const auto phase = [phases](double ms) { return phases ? digits(ms) : std::string("-"); };
-    return fmt::format(kLine, r.model, r.size, r.method, phases ? r.kernel : "-", r.threads, digits(r.ms),
+    return fmt::format(kLine, r.model, model_width, r.size, r.method, phases ? r.kernel : "-", r.threads, digits(r.ms),
                        phase(r.phases.snap_ms), phase(r.phases.cross_ms), phase(r.phases.finish_ms),
                        digits(r.floor.sum_ms()), fmt::format("{:.1f}", r.floor_ratio()),
                        r.crossings == 0 ? "-" : thousands(r.crossings),
@@ -57,6 +57,22 @@ std::string bench_json(std::span<const BenchResult> results) {
         separator = ",\n";
     }
     return out + "\n]\n";
+}
+
+std::string bench_json_fields() {
+    return "The fields of --json, an object for each model, size, method and number of threads. Times are medians:\n"
+           "  model, triangles, size (samples a side), method, kernel (null but for column), threads\n"
+           "  runs            how many were timed\n"
+           "  ms              milliseconds from mesh to bits, by the clock\n"
+           "  cpu_ms          milliseconds of all processors together\n"
+           "  snap_ms, cross_ms, finish_ms\n"
+           "                  milliseconds of the phases: vertices to integers, triangles to crossings, crossings to\n"
+           "                  bits (null but for column)\n"
+           "  floor_ms        milliseconds of the floor, the sum of floor_clear_ms (volume), floor_xor_ms (layers)\n"
+           "                  and floor_read_ms (corners)\n"
+           "  floor_ratio     ms / floor_ms\n"
+           "  crossings       of columns and faces (null for simplicial)\n"
+           "  set, surface    voxels inside, and those of them with a neighbour that is not";
 }
 
 }  // namespace xorvox::tools

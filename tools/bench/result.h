@@ -23,7 +23,7 @@ struct FloorTimes {
 
 /// One model, size, method and number of threads. Times are medians.
 struct BenchResult {
-    std::string model;  ///< The file's name, without its folder and extension.
+    std::string model;  ///< See Model (tools/bench/input.h).
     std::size_t triangles = 0;
     std::uint32_t size = 0;  ///< Samples a side.
     std::string method;      ///< "column", "simplicial" or "reference".
@@ -41,16 +41,20 @@ struct BenchResult {
     double floor_ratio() const { return ms / std::max(floor.sum_ms(), 1e-6); }
 };
 
-/// Lines for a person: one model and size after the other, in the order of `results`. The heading is a line of its own.
-std::string bench_heading();
-std::string bench_line(const BenchResult& result);
+/// Lines of a table for a person, its heading and a result; models have a column of `model_width` letters.
+std::string bench_heading(std::size_t model_width);
+std::string bench_line(const BenchResult& result, std::size_t model_width);
 
 /// One JSON array of objects, all with the same keys; those that a method does not have are null.
 std::string bench_json(std::span<const BenchResult> results);
 
+/// What the keys mean, and their units, in lines for a person.
+std::string bench_json_fields();
+
 /// The rows and columns of Tables 2 to 4 of Rueda, Ogáyar, Segura, Feito: "Fast and Simple Hardware Accelerated
 /// Voxelizations Using Simplicial Coverings", section 6, as Markdown: the seconds that are printed there beside those
-/// of the models that stand in, on one thread; "-" for what was not measured.
+/// of the models that stand in, on one thread; "-" for what was not measured, and no row for a model without results.
+/// When none has any, a line that says so.
 std::string paper_tables(std::span<const BenchResult> results);
 
 /// Three panels with logarithmic axes: time against size, a line for each model, method and number of threads; time

@@ -90,8 +90,8 @@ struct VolumeWriter::State {
         for (std::uint32_t i = 0; i < count; ++i) {
             if (stop.stop_requested()) return fail(name + ": stopped; nothing was written");
             if (auto ok = encoder->add(file, slab, i); !ok) return ok;
-            
-            if (progress) progress(static_cast<double>(written) / planes()); ++written;
+            ++written;
+            if (progress) progress(static_cast<double>(written) / planes());
         }
         return {};
     }
