@@ -56,7 +56,8 @@ struct SolidVoxelizer::State {
     bool fits(const BitVolumeView& out, const Region& region) const;
     void prepare_region(const Region& region, Below below, bool by_layer);
     Status snap(const MeshView& mesh, SolidReport& report);
-    void pack();
+    void pack(std::size_t begin, std::size_t count);
+    void pack_all();
     template <class Flush>
     Status cross(const MeshView& mesh, double share, const Flush& flush);
     bool cross_more(Part& at, unsigned part, double share);
@@ -180,7 +181,7 @@ void SolidVoxelizer::State::prepare_region(const Region& wanted, Below below, bo
     region = wanted;
 }
 
-/// Snaps the vertices of `from`, whose indices are in range.
+/// Snaps and packs the vertices of `from`, whose indices are in range.
 Status SolidVoxelizer::State::snap(const MeshView& from, SolidReport& report) {
     const Stopwatch watch(times.snap_ms);
     const std::size_t count = from.positions.size();
@@ -188,29 +189,40 @@ Status SolidVoxelizer::State::snap(const MeshView& from, SolidReport& report) {
     resize_exactly(points, count + 1);
     resize_exactly(keys, count);
     workers.run([&](unsigned part) {
-        const std::size_t begin = count * part / workers.count();
-        const std::size_t size = count * (part + 1) / workers.count() - begin;
-        good[part] = size == 0 || table->snap(grid, &from.positions[begin], size, &points[begin]);
+        const std::size_t end = count * (part + 1) / workers.count();
+        good[part] = 1;
+        // Some at a time, so that they are packed while they are in the cache.
+        constexpr std::size_t kStep = 1024;
+        for (std::size_t begin = count * part / workers.count(); begin < end; begin += kStep) {
+            const std::size_t some = std::min(kStep, end - begin);
+            if (!table->snap(grid, &from.positions[begin], some, &points[begin])) good[part] = 0;
+            pack(begin, some);
+        }
     });
-    const bool all_good = std::find(good.begin(), good.end(), 0) == good.end();
-    if (!all_good && !snap_vertices(from, grid, std::span(points).first(count), report.bad_vertex)) {
-        return Status::OutOfRange;
+    if (std::find(good.begin(), good.end(), 0) != good.end()) {
+        if (!snap_vertices(from, grid, std::span(points).first(count), report.bad_vertex)) return Status::OutOfRange;
+        pack(0, count);
     }
-    points_are_snapped = true;
+    points_are_snapped = keys_are_packed = true;
     return Status::Ok;
 }
 
-void SolidVoxelizer::State::pack() {
+/// The keys of snapped vertices begin … begin + count - 1.
+void SolidVoxelizer::State::pack(std::size_t begin, std::size_t count) {
+    if (count == 0) return;
+    if (lattice.is_regular()) {
+        table->pack_regular(regular, &points[begin], count, &keys[begin]);
+    } else {
+        table->pack_table(tables, &points[begin], count, &keys[begin]);
+    }
+}
+
+/// The keys of all snapped vertices, for another region.
+void SolidVoxelizer::State::pack_all() {
     const Stopwatch watch(times.snap_ms);
     workers.run([&](unsigned part) {
         const std::size_t begin = keys.size() * part / workers.count();
-        const std::size_t count = keys.size() * (part + 1) / workers.count() - begin;
-        if (count == 0) return;
-        if (lattice.is_regular()) {
-            table->pack_regular(regular, &points[begin], count, &keys[begin]);
-        } else {
-            table->pack_table(tables, &points[begin], count, &keys[begin]);
-        }
+        pack(begin, keys.size() * (part + 1) / workers.count() - begin);
     });
     keys_are_packed = true;
 }
@@ -325,16 +337,14 @@ Status SolidVoxelizer::State::solid(const MeshBatches* next, BitVolumeView out, 
         if (!points_are_snapped) {
             if (const Status status = snap(mesh, report); status != Status::Ok) return status;
         }
-        if (!keys_are_packed) pack();
+        if (!keys_are_packed) pack_all();
         if (const Status status = cross(mesh, kCrossShare, make_room); status != Status::Ok) return status;
     } else {
         for (MeshView batch; (*next)(batch); batch = {}) {
             if (const Status status = validate(batch, &report.bad_index); status != Status::Ok) return status;
             Status status = snap(batch, report);
-            if (status == Status::Ok) {
-                pack();
-                status = cross(batch, 0.0, make_room);  // How many batches will come is not known.
-            }
+            // How many batches will come is not known: no progress is told.
+            if (status == Status::Ok) status = cross(batch, 0.0, make_room);
             points_are_snapped = keys_are_packed = false;
             if (status != Status::Ok) return status;
         }
@@ -351,7 +361,7 @@ Status SolidVoxelizer::State::crossings(CrossingLists& lists, SolidReport& repor
     if (!points_are_snapped) {
         if (const Status status = snap(mesh, report); status != Status::Ok) return status;
     }
-    if (!keys_are_packed) pack();
+    if (!keys_are_packed) pack_all();
     LayeredBits kept(region->size.z);
     const auto make_room = [&] {
         const Stopwatch watch(times.finish_ms);
