@@ -57,6 +57,10 @@ std::optional<Vector> third_corner(const Vector& b, const Vector& c, int determi
     if (common == 0) return std::nullopt;
     // One solution; any whole number of b and c may be added to it.
     const Wide first[3] = {Wide{x} * s * determinant, Wide{y} * s * determinant, Wide{z} * determinant};
+    constexpr Wide kMost = Wide{1} << 90;
+    for (const Wide coordinate : first) {
+        if (coordinate > kMost || coordinate < -kMost) return std::nullopt;
+    }
     const Wide of_b = round_down(first[0] * c.y - first[1] * c.x, normal.z) + 1;
     const Wide of_c = round_down(Wide{b.x} * first[1] - Wide{b.y} * first[0], normal.z) + 1;
     const Wide a[3] = {first[0] - of_b * b.x - of_c * c.x, first[1] - of_b * b.y - of_c * c.y,
