@@ -165,7 +165,8 @@ void SolidVoxelizer::State::prepare_region(const Region& wanted, Below below, bo
                               region->size.x == wanted.size.x && region->size.y == wanted.size.y;
     region.reset();
     if (lattice.is_regular()) {
-        regular = {RegularColumns(wanted, grid), static_cast<std::uint32_t>(row_words(wanted.size.x) * 64), below};
+        regular = {RegularColumns(wanted, grid), static_cast<std::uint32_t>(row_words(wanted.size.x) * 64), below,
+                   wanted.size.z < lattice.nz};
         if (!same_columns) keys_are_packed = false;
     } else {
         if (!same) tables.assign(lattice, grid, wanted);

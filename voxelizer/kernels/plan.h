@@ -35,6 +35,7 @@ struct RegularPlan {
     RegularColumns columns;
     std::uint32_t row_bits = 64;
     Below below = Below::Counts;
+    bool is_part_of_columns = false;  ///< There are samples of the lattice above or below, so that triangles may miss it.
 
     /// Whether a triangle flips no sample, whatever columns it crosses: it is above the region, or counted below it.
     bool misses(const Triangle& t) const {

@@ -78,6 +78,10 @@ inline bool cross_regular(const RegularPlan& plan, const Vertices& vertices, con
         const KeyBox box(candidates.low[i], candidates.size[i]);
         progress.triangle = candidates.triangle[i];
         if (progress.triangle != resumed) progress.part = 0;
+        if (plan.is_part_of_columns &&
+            plan.misses({vertices.points[index[0]], vertices.points[index[1]], vertices.points[index[2]]})) {
+            continue;
+        }
         if (box.width() <= most && box.height() <= most) {
             const std::uint32_t wide = SmallTriangles::side_class(box.width());
             const std::uint32_t high = SmallTriangles::side_class(box.height());
