@@ -6,18 +6,6 @@
 #include "voxelizer/facet.h"
 
 namespace xorvox {
-namespace {
-
-glm::ivec3 lowest_sample(const Lattice& lattice, const SnapGrid& grid, std::size_t column) {
-    const double base = lattice.z0.empty() ? 0.0 : lattice.z0[column];
-    glm::ivec3 snapped{0};
-    // A point of the lattice is within 2^20 units of the grid's origin, so that this cannot fail.
-    (void)snap(grid, {lattice.plan[column], base + lattice.z.front()}, snapped);
-    return snapped;
-}
-
-}  // namespace
-
 std::size_t PlanIndex::scratch_bytes(const Lattice& lattice) {
     if (lattice.is_regular()) return 0;
     const std::size_t columns = lattice.plan.size();
@@ -27,14 +15,7 @@ std::size_t PlanIndex::scratch_bytes(const Lattice& lattice) {
 
 PlanIndex::PlanIndex(const Lattice& lattice, const SnapGrid& grid, Scratch& scratch) {
     rises_ = scratch.take<std::int32_t>(lattice.nz);
-    SnapGrid from_lowest = grid;
-    from_lowest.origin = {0.0, 0.0, lattice.z.front()};
-    for (std::size_t k = 0; k < rises_.size(); ++k) {
-        glm::ivec3 snapped{0};
-        // At most 2^21 units, so that this cannot fail: a valid lattice's box is at least half as high as its table.
-        (void)snap(from_lowest, {0.0, 0.0, lattice.z[k]}, snapped);
-        rises_[k] = snapped.z;
-    }
+    for (std::uint32_t k = 0; k < lattice.nz; ++k) rises_[k] = snapped_rise(lattice, grid, k);
 
     choose_bins(lattice, grid);
     starts_ = scratch.take<std::uint32_t>(static_cast<std::size_t>(bins_x_) * static_cast<std::size_t>(bins_y_) + 1);
@@ -64,10 +45,10 @@ std::size_t PlanIndex::bin_of(const glm::ivec3& lowest) const {
 /// Counting sort: first starts_[b] counts the columns of the bins up to b, then each column takes the last free place.
 void PlanIndex::sort_columns(const Lattice& lattice, const SnapGrid& grid) {
     std::fill(starts_.begin(), starts_.end(), 0u);
-    for (std::size_t i = 0; i < columns_.size(); ++i) ++starts_[bin_of(lowest_sample(lattice, grid, i))];
+    for (std::size_t i = 0; i < columns_.size(); ++i) ++starts_[bin_of(snapped_column(lattice, grid, i))];
     for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
     for (std::size_t i = columns_.size(); i-- > 0;) {
-        const glm::ivec3 lowest = lowest_sample(lattice, grid, i);
+        const glm::ivec3 lowest = snapped_column(lattice, grid, i);
         const auto x = static_cast<std::uint32_t>(i % lattice.nx);
         const auto y = static_cast<std::uint32_t>(i / lattice.nx);
         columns_[--starts_[bin_of(lowest)]] = {lowest, static_cast<std::uint32_t>(column_bit(lattice.nx, x, y))};

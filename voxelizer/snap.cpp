@@ -51,4 +51,21 @@ bool snap(const SnapGrid& grid, const glm::dvec3& point, glm::ivec3& snapped) {
     return true;
 }
 
+glm::ivec3 snapped_column(const Lattice& lattice, const SnapGrid& grid, std::size_t column) {
+    const double base = lattice.z0.empty() ? 0.0 : lattice.z0[column];
+    glm::ivec3 snapped{0};
+    // A point of the lattice is within 2^20 units of the grid's origin, so that this cannot fail.
+    (void)snap(grid, {lattice.plan[column], base + lattice.z.front()}, snapped);
+    return snapped;
+}
+
+std::int32_t snapped_rise(const Lattice& lattice, const SnapGrid& grid, std::uint32_t k) {
+    SnapGrid from_lowest = grid;
+    from_lowest.origin = {0.0, 0.0, lattice.z.front()};
+    glm::ivec3 snapped{0};
+    // At most 2^21 units, so that this cannot fail: a valid lattice's box is at least half as high as its table.
+    (void)snap(from_lowest, {0.0, 0.0, lattice.z[k]}, snapped);
+    return snapped.z;
+}
+
 }  // namespace xorvox

@@ -15,6 +15,7 @@
 // Freestanding; the functions are pure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -38,5 +39,11 @@ SnapGrid snap_grid(const Lattice& lattice);
 /// Writes the grid point nearest to `point` to `snapped`. False, and `snapped` untouched, when a coordinate is not a
 /// number or would exceed kSnapLimit: points are never clamped, because that would move planes.
 bool snap(const SnapGrid& grid, const glm::dvec3& point, glm::ivec3& snapped);
+
+/// Where the lowest sample of column `column` of a valid table lattice stands on its grid.
+glm::ivec3 snapped_column(const Lattice& lattice, const SnapGrid& grid, std::size_t column);
+
+/// How far sample k of a valid table lattice stands above the lowest sample of its column, in units of its grid.
+std::int32_t snapped_rise(const Lattice& lattice, const SnapGrid& grid, std::uint32_t k);
 
 }  // namespace xorvox

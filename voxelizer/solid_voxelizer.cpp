@@ -169,9 +169,12 @@ void SolidVoxelizer::State::prepare_region(const Region& wanted, Below below, bo
                    wanted.size.z < lattice.nz};
         if (!same_columns) keys_are_packed = false;
     } else {
-        if (!same) tables.assign(lattice, grid, wanted);
+        if (!same_columns) {
+            tables.assign_columns(lattice, grid, wanted);
+            keys_are_packed = false;
+        }
+        if (!same) tables.assign_heights(lattice, grid, wanted.begin.z, wanted.size.z);
         tables.set_below(below);
-        if (!same_columns) keys_are_packed = false;
     }
     const std::size_t layer_words = volume_words(wanted.size.x, wanted.size.y, 1);
     const std::size_t bytes = options.event_bytes / workers.count();

@@ -47,6 +47,7 @@ inline void cross_rows_exactly(const RegularPlan& plan, const Triangle& t, std::
 /// Pushes the crossing of a column, told by its bit, by a face whose first point above is `rise` above its lowest
 /// sample.
 inline void push_at_rise(const TablePlan& plan, std::uint32_t bit, std::int64_t rise, Events& events) {
+    rise -= plan.lowest_rise();
     if (plan.is_counted_below(rise)) return;
     const std::uint32_t k = plan.first_sample_from(rise);
     if (k < plan.nz()) events.push(k, bit);

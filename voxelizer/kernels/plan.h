@@ -35,7 +35,8 @@ struct RegularPlan {
     RegularColumns columns;
     std::uint32_t row_bits = 64;
     Below below = Below::Counts;
-    bool is_part_of_columns = false;  ///< There are samples of the lattice above or below, so that triangles may miss it.
+    bool is_part_of_columns =
+        false;  ///< There are samples of the lattice above or below, so that triangles may miss it.
 
     /// Whether a triangle flips no sample, whatever columns it crosses: it is above the region, or counted below it.
     bool misses(const Triangle& t) const {
@@ -45,7 +46,7 @@ struct RegularPlan {
     }
 };
 
-/// A column of a table: where it stands, its lowest sample in the region, and its bit in a layer.
+/// A column of a table: where it stands, its lowest sample, be it in the region or not, and its bit in a layer.
 struct TableColumn {
     std::int32_t x, y, z;
     std::uint32_t bit;
@@ -55,8 +56,10 @@ struct TableColumn {
 /// lie side by side, so that a triangle meets one run of places a row.
 class TablePlan {
 public:
-    /// Sorts the columns of a region of a valid table lattice; throws std::bad_alloc.
-    void assign(const Lattice& lattice, const SnapGrid& grid, const Region& region);
+    /// Sorts the columns of a region of a valid table lattice, whatever its layers; throws std::bad_alloc.
+    void assign_columns(const Lattice& lattice, const SnapGrid& grid, const Region& region);
+    /// Takes the layers begin … begin + size - 1; throws std::bad_alloc.
+    void assign_heights(const Lattice& lattice, const SnapGrid& grid, std::uint32_t begin, std::uint32_t size);
     void set_below(Below below) { below_ = below; }
     static std::size_t bytes(std::size_t columns);
 
@@ -79,8 +82,10 @@ public:
     static constexpr std::size_t kColumnSlack = 16;
 
     std::uint32_t nz() const { return static_cast<std::uint32_t>(rises_.size()); }
-    /// Heights of the samples over the lowest one, increasing from 0; and for every 2^guess_shift() units from 0 to the
-    /// highest a sample at or below the first one that is as high.
+    /// How far the lowest sample of the region is above the lowest of its column.
+    std::int32_t lowest_rise() const { return lowest_rise_; }
+    /// Heights of the region's samples over its lowest one, increasing from 0; and for every 2^guess_shift() units from
+    /// 0 to the highest a sample at or below the first one that is as high.
     const std::int32_t* rises() const { return rises_.data(); }
     const std::int32_t* guesses() const { return guesses_.data(); }
     std::uint32_t guess_shift() const { return guess_shift_; }
@@ -90,7 +95,7 @@ public:
     double most_counted_below() const {
         return below_ == Below::Dropped ? rise_below_ : -std::numeric_limits<double>::infinity();
     }
-    /// The first sample at or above `rise` units over the lowest one; nz() if there is none.
+    /// The first sample at or above `rise` units over the region's lowest one; nz() if there is none.
     std::uint32_t first_sample_from(std::int64_t rise) const {
         if (rise <= 0) return 0;
         if (rise > rises_.back()) return nz();
@@ -98,12 +103,13 @@ public:
         while (rises_[k] < rise) ++k;
         return k;
     }
-    /// Whether a face `rise` units over the lowest sample is below the sample under that one as well, and the parities
-    /// that the region begins with know of it.
+    /// Whether a face `rise` units over the region's lowest sample is below the sample under that one as well, and the
+    /// parities that the region begins with know of it.
     bool is_counted_below(std::int64_t rise) const { return below_ == Below::Dropped && rise <= rise_below_; }
     /// As RegularPlan::misses().
     bool misses(const Triangle& t) const {
-        return t.lowest() > highest_sample_ || is_counted_below(std::int64_t{t.highest()} + 1 - lowest_sample_);
+        if (t.lowest() > std::int64_t{highest_column_} + lowest_rise_ + rises_.back()) return true;
+        return is_counted_below(std::int64_t{t.highest()} + 1 - lowest_column_ - lowest_rise_);
     }
 
 private:
@@ -115,8 +121,9 @@ private:
     std::uint32_t bins_x_ = 1;
     std::uint32_t guess_shift_ = 0;
     std::uint32_t guess_steps_ = 1;
-    std::int32_t lowest_sample_ = 0;  // Of all columns, as is the next.
-    std::int32_t highest_sample_ = 0;
+    std::int32_t lowest_column_ = 0;  // The lowest and the highest of the columns' lowest samples.
+    std::int32_t highest_column_ = 0;
+    std::int32_t lowest_rise_ = 0;
     std::int32_t rise_below_ = 0;  // Of the sample below the region, if there is one: not positive.
     std::vector<std::int32_t> rises_;
     std::vector<std::int32_t> guesses_;

@@ -25,6 +25,7 @@ HWY_INLINE std::size_t store_at_rises(const TablePlan& plan, D d, V rise, M cros
     const hn::RebindToUnsigned<D> du;
     const hn::Rebind<std::int32_t, D> di;
     const hn::RebindToUnsigned<decltype(di)> du32;
+    rise = hn::Sub(rise, hn::Set(d, static_cast<double>(plan.lowest_rise())));
     const double highest = plan.rises()[plan.nz() - 1];
     crossed = hn::And(crossed,
                       hn::And(hn::Le(rise, hn::Set(d, highest)), hn::Gt(rise, hn::Set(d, plan.most_counted_below()))));

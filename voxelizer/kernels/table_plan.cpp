@@ -23,23 +23,6 @@ constexpr std::size_t most_bins(std::size_t columns) {
     return 6 * columns;
 }
 
-glm::ivec3 snapped_sample(const Lattice& lattice, const SnapGrid& grid, std::size_t column) {
-    const double base = lattice.z0.empty() ? 0.0 : lattice.z0[column];
-    glm::ivec3 snapped{0};
-    // A point of the lattice is within 2^20 units of the grid's origin, so that this cannot fail.
-    (void)snap(grid, {lattice.plan[column], base + lattice.z.front()}, snapped);
-    return snapped;
-}
-
-/// The rounded height of sample k over the lowest sample of its column.
-std::int32_t snapped_rise(const Lattice& lattice, const SnapGrid& grid, std::uint32_t k) {
-    SnapGrid from_lowest = grid;
-    from_lowest.origin = {0.0, 0.0, lattice.z.front()};
-    glm::ivec3 snapped{0};
-    (void)snap(from_lowest, {0.0, 0.0, lattice.z[k]}, snapped);
-    return snapped.z;
-}
-
 }  // namespace
 
 std::size_t TablePlan::bytes(std::size_t columns) {
@@ -50,14 +33,12 @@ std::size_t TablePlan::bytes(std::size_t columns) {
            (kMaxLatticeSide + kMostGuesses) * sizeof(std::int32_t) + 64;
 }
 
-void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Region& region) {
-    const std::int32_t lowest_rise = snapped_rise(lattice, grid, region.begin.z);
-    resize_exactly(rises_, region.size.z);
-    for (std::uint32_t k = 0; k < region.size.z; ++k) {
-        rises_[k] = snapped_rise(lattice, grid, region.begin.z + k) - lowest_rise;
-    }
-    rise_below_ = region.begin.z == 0 ? std::numeric_limits<std::int32_t>::min()
-                                      : snapped_rise(lattice, grid, region.begin.z - 1) - lowest_rise;
+void TablePlan::assign_heights(const Lattice& lattice, const SnapGrid& grid, std::uint32_t begin, std::uint32_t size) {
+    lowest_rise_ = snapped_rise(lattice, grid, begin);
+    resize_exactly(rises_, size);
+    for (std::uint32_t k = 0; k < size; ++k) rises_[k] = snapped_rise(lattice, grid, begin + k) - lowest_rise_;
+    rise_below_ =
+        begin == 0 ? std::numeric_limits<std::int32_t>::min() : snapped_rise(lattice, grid, begin - 1) - lowest_rise_;
     // Guesses so fine that there is one sample between two of them, if these are not too many.
     std::int32_t least_step = std::numeric_limits<std::int32_t>::max();
     for (std::size_t i = 1; i < rises_.size(); ++i) least_step = std::min(least_step, rises_[i] - rises_[i - 1]);
@@ -75,7 +56,9 @@ void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Regio
     }
     guess_steps_ =
         std::max(guess_steps_, static_cast<std::uint32_t>(rises_.size() - 1) - static_cast<std::uint32_t>(k));
+}
 
+void TablePlan::assign_columns(const Lattice& lattice, const SnapGrid& grid, const Region& region) {
     const Box box = sample_bounds(lattice);
     glm::ivec3 upper{0};
     (void)snap(grid, box.upper, upper);
@@ -96,7 +79,7 @@ void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Regio
     const auto column_at = [&](std::size_t i) {
         const std::size_t x = region.begin.x + i % region.size.x;
         const std::size_t y = region.begin.y + i / region.size.x;
-        return snapped_sample(lattice, grid, y * lattice.nx + x);
+        return snapped_column(lattice, grid, y * lattice.nx + x);
     };
     const auto bin_of = [&](const glm::ivec3& sample) {
         const std::uint32_t shift = cell_shift_ + bin_cells_log2_;
@@ -123,17 +106,17 @@ void TablePlan::assign(const Lattice& lattice, const SnapGrid& grid, const Regio
     }
     for (std::size_t b = 1; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
     resize_exactly(columns_, count + kColumnSlack);
-    lowest_sample_ = std::numeric_limits<std::int32_t>::max();
-    highest_sample_ = std::numeric_limits<std::int32_t>::min();
+    lowest_column_ = std::numeric_limits<std::int32_t>::max();
+    highest_column_ = std::numeric_limits<std::int32_t>::min();
     for (std::size_t i = count; i-- > 0;) {
         const glm::ivec3 sample = column_at(i);
         const std::size_t place = --starts_[bin_of(sample)];
         const auto x = static_cast<std::uint32_t>(i % region.size.x);
         const auto y = static_cast<std::uint32_t>(i / region.size.x);
-        const std::int32_t z = sample.z + lowest_rise;
-        columns_[place] = {sample.x, sample.y, z, static_cast<std::uint32_t>(column_bit(region.size.x, x, y))};
-        lowest_sample_ = std::min(lowest_sample_, z);
-        highest_sample_ = std::max(highest_sample_, z + rises_.back());
+        const auto bit = static_cast<std::uint32_t>(column_bit(region.size.x, x, y));
+        columns_[place] = {sample.x, sample.y, sample.z, bit};
+        lowest_column_ = std::min(lowest_column_, sample.z);
+        highest_column_ = std::max(highest_column_, sample.z);
     }
 }
 
