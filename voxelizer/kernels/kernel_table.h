@@ -15,11 +15,10 @@
 
 namespace xorvox::kernels {
 
-/// Vertices on the snapping grid. keys[i] packs what a vertex is to the columns: on regular plans the first column and
-/// row at or beyond it, on tables one more than its cell, between 0 and the number of cells plus one, as (y << 16 | x).
-/// On regular plans triangles whose keys agree in a
-/// half cover no column. Behind the last point there are kPointSlack bytes that may be
-/// read.
+/// Vertices on the snapping grid. keys[i] packs what a vertex is to the columns, as (y << 16 | x): on regular plans the
+/// first column and row at or beyond it, so that triangles whose keys agree in a half cover no column; on tables one
+/// more than its cell, between 0 and the number of cells plus one. Behind the last point there are kPointSlack bytes
+/// that may be read.
 struct Vertices {
     const glm::ivec3* points = nullptr;
     const std::uint32_t* keys = nullptr;

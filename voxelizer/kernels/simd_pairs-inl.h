@@ -13,6 +13,7 @@
 #include "voxelizer/kernels/direct.h"
 #include "voxelizer/kernels/kernel_table.h"
 #include "voxelizer/kernels/simd_compress-inl.h"
+#include "voxelizer/kernels/simd_quotient-inl.h"
 #include "voxelizer/kernels/simd_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -91,8 +92,6 @@ HWY_NOINLINE void cross_pairs(const TablePlan& plan, ColumnPairs& pairs, Events&
         const auto area = hn::Add(hn::Add(ab, bc), ca);
         const auto divisor = hn::Abs(area);
 
-        const auto farthest = [](auto a, auto b, auto c)
-                                  HWY_ATTR { return hn::Max(hn::Max(hn::Abs(a), hn::Abs(b)), hn::Abs(c)); };
         const auto size = hn::Max(hn::Max(farthest(ax, bx, cx), farthest(ay, by, cy)), farthest(az, bz, cz));
         auto able = hn::Lt(hn::Iota(d, static_cast<double>(i)), hn::Set(d, static_cast<double>(pairs.count)));
         const auto large = hn::And(able, hn::Ge(size, reach));
@@ -115,12 +114,9 @@ HWY_NOINLINE void cross_pairs(const TablePlan& plan, ColumnPairs& pairs, Events&
         inside = hn::And(inside, hn::And(able, hn::Gt(divisor, zero)));
         const auto sign = hn::And(area, hn::SignBit(d));
         const auto height = hn::Xor(hn::Add(hn::Add(hn::Mul(bc, az), hn::Mul(ca, bz)), hn::Mul(ab, cz)), sign);
-        auto whole = hn::Floor(hn::Div(height, divisor));
-        // The quotient may be off by one; the remainder, which is exact, tells.
-        const auto rest = hn::Sub(height, hn::Mul(whole, divisor));
-        whole = hn::Sub(whole, hn::IfThenElseZero(hn::Lt(rest, zero), one));
-        whole = hn::Add(whole, hn::IfThenElseZero(hn::Ge(rest, divisor), one));
-        const auto touches = hn::And(inside, hn::Or(hn::Eq(rest, zero), hn::Eq(hn::Abs(rest), divisor)));
+        auto touches = inside;
+        const auto whole = floor_divide_lanes(height, divisor, hn::Div(one, divisor), touches);
+        touches = hn::And(touches, inside);
         auto first_above = hn::Add(whole, one);
         if (HWY_UNLIKELY(!hn::AllFalse(d, touches))) {
             // A point on the plane is above it when the plane falls along the first axis along which it is not level.

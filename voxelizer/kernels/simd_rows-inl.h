@@ -16,6 +16,7 @@
 #include "voxelizer/kernels/direct.h"
 #include "voxelizer/kernels/kernel_table.h"
 #include "voxelizer/kernels/simd_compress-inl.h"
+#include "voxelizer/kernels/simd_quotient-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace xorvox::kernels::HWY_NAMESPACE {
@@ -218,16 +219,13 @@ HWY_NOINLINE void RowCrossing::cross_as(std::uint32_t begin, std::uint32_t end, 
             auto whole = hn::Set(d, -1.0);  // Flat: above sample base - 1, and a sample that it touches is above it.
             if constexpr (kDepth != Depth::Flat) {
                 const auto height = hn::Add(hn::Add(hn::Mul(value0, h0), hn::Mul(value1, h1)), hn::Mul(value2, h2));
-                const auto quotient = hn::Mul(height, inverse);
-                whole = hn::Floor(quotient);
                 if constexpr (kDepth == Depth::Exact) {
-                    // The quotient may be off by one; the remainder, which is exact, tells.
-                    const auto rest = hn::Sub(height, hn::Mul(whole, divisor));
-                    whole = hn::Sub(whole, hn::IfThenElseZero(hn::Lt(rest, zero), one));
-                    whole = hn::Add(whole, hn::IfThenElseZero(hn::Ge(rest, divisor), one));
-                    const auto touches = hn::Or(hn::Eq(rest, zero), hn::Eq(hn::Abs(rest), divisor));
+                    auto touches = inside;
+                    whole = floor_divide_lanes(height, divisor, inverse, touches);
                     whole = hn::Sub(whole, hn::IfThenElseZero(touches, touch));
                 } else {
+                    const auto quotient = hn::Mul(height, inverse);
+                    whole = hn::Floor(quotient);
                     const auto fraction = hn::Sub(quotient, whole);
                     const auto doubtful = hn::And(inside, hn::Or(hn::Lt(fraction, hn::Set(d, kDoubtful)),
                                                                  hn::Gt(fraction, hn::Set(d, 1.0 - kDoubtful))));

@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 #include "voxelizer/kernels/kernel_table.h"
 #include "voxelizer/kernels/simd_compress-inl.h"
+#include "voxelizer/kernels/simd_quotient-inl.h"
 #include "voxelizer/kernels/simd_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -116,8 +117,6 @@ HWY_NOINLINE void cross_batch(const RegularPlan& plan, SmallTriangles::Batch& ba
         const auto inverse = hn::Div(one, divisor);
 
         auto able = hn::Gt(divisor, zero);
-        const auto farthest = [](auto a, auto b, auto c)
-                                  HWY_ATTR { return hn::Max(hn::Max(hn::Abs(a), hn::Abs(b)), hn::Abs(c)); };
         const auto size = hn::Max(hn::Max(farthest(ax, bx, cx), farthest(ay, by, cy)), farthest(az, bz, cz));
         const auto large = hn::And(able, hn::Gt(size, reach));
         if (HWY_UNLIKELY(!hn::AllFalse(d, large))) {
@@ -148,16 +147,10 @@ HWY_NOINLINE void cross_batch(const RegularPlan& plan, SmallTriangles::Batch& ba
             for (std::uint32_t x = 0; x < width; ++x) {
                 const auto least = hn::Min(hn::Min(ab_at, bc_at), ca_at);
                 auto inside = hn::And(able, hn::Ge(least, zero));
-                auto whole = hn::Floor(hn::Mul(height_at, inverse));
-                // The quotient may be off by one; the remainder, which is exact, tells.
-                auto rest = hn::Sub(height_at, hn::Mul(whole, divisor));
-                const auto too_large = hn::Lt(rest, zero);
-                const auto too_small = hn::Ge(rest, divisor);
-                whole = hn::Sub(whole, hn::IfThenElseZero(too_large, one));
-                whole = hn::Add(whole, hn::IfThenElseZero(too_small, one));
+                auto touches = inside;
+                const auto whole = floor_divide_lanes(height_at, divisor, inverse, touches);
+                touches = hn::And(touches, inside);
                 auto sample = hn::Add(whole, first);
-                // A remainder of 0 or of the divisor: the sample is on the plane.
-                const auto touches = hn::And(inside, hn::Or(hn::Eq(rest, zero), hn::Eq(hn::Abs(rest), divisor)));
                 if (HWY_UNLIKELY(!hn::AllFalse(d, touches))) {
                     // It is above the face when the first component of the upward normal that is not 0 is positive;
                     // the plane falls along x where the normal's x is positive.

@@ -93,17 +93,15 @@ public:
             const auto height = hn::Add(
                 hn::Add(hn::Mul(value0, hn::Set(d, lines_.heights[0])), hn::Mul(value1, hn::Set(d, lines_.heights[1]))),
                 hn::Mul(value2, hn::Set(d, lines_.heights[2])));
-            const auto quotient = hn::Mul(height, inverse);
-            auto whole = hn::Floor(quotient);
+            auto whole = zero;
             if (exact_) {
-                // The quotient may be off by one; the remainder, which is exact, tells.
-                const auto rest = hn::Sub(height, hn::Mul(whole, divisor));
-                whole = hn::Sub(whole, hn::IfThenElseZero(hn::Lt(rest, zero), one));
-                whole = hn::Add(whole, hn::IfThenElseZero(hn::Ge(rest, divisor), one));
-                const auto touches = hn::Or(hn::Eq(rest, zero), hn::Eq(hn::Abs(rest), divisor));
+                auto touches = inside;
+                whole = floor_divide_lanes(height, divisor, inverse, touches);
                 const auto touch = hn::Set(d, lines_.touch_is_above ? 1.0 : 0.0);
                 whole = hn::Sub(whole, hn::IfThenElseZero(touches, touch));
             } else {
+                const auto quotient = hn::Mul(height, inverse);
+                whole = hn::Floor(quotient);
                 const auto fraction = hn::Sub(quotient, whole);
                 const auto doubtful = hn::And(inside, hn::Or(hn::Lt(fraction, hn::Set(d, kDoubtfulUnits)),
                                                              hn::Gt(fraction, hn::Set(d, 1.0 - kDoubtfulUnits))));
