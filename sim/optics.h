@@ -15,26 +15,41 @@ namespace xorvox::sim {
 /// One pixel that was lit, at one place, for one slice.
 struct Flash {
     glm::dvec3 place_mm;
-    glm::vec3 light;         ///< Linear, 0 … 1 per channel, brightness applied.
     std::uint32_t code = 0;  ///< The pixel's bits as they came on the wire.
-    std::uint32_t time = 0;  ///< Number of the slice interval in the cycle.
+    std::uint32_t time = 0;  ///< Number of the slice on the wire: when in the cycle it was lit.
 };
 
 /// Everything that was lit in one cycle.
 struct LightField {
+    PixelFormat format = PixelFormat::Mono1;  ///< Of the codes.
+    std::uint8_t brightness = 255;            ///< By which all light is dimmed, of 255.
     std::vector<Flash> flashes;
+
+    /// Linear, 0 … 1 per channel, brightness applied.
+    glm::vec3 light(const Flash& flash) const;
 };
 
-/// How a display can be put together wrongly; faults for tests. Nothing by default.
+/// How a display can be put together wrongly; faults for tests. Nothing by default. Of free points, which have one
+/// slice, the points are counted instead of the slices, row after row.
 struct Misbuild {
-    std::int32_t swap_a = -1;  ///< Planes (stacked) or slices (rotating) a and b swapped; both −1: none.
+    std::int32_t swap_a = -1;  ///< Slices (planes, points) a and b swapped; both −1: none.
     std::int32_t swap_b = -1;
     std::int32_t mirrored_panel = -1;  ///< Columns of this panel run the other way.
-    std::int32_t phase_slices = 0;     ///< The index mark, or the plane counter of a stack, is off by so many slices.
+    /// By how many slices the index mark, the plane counter of a stack or the first point of a string is off. Where a
+    /// thing is counted the count wraps; a swept plane that is late at the top is on its way down.
+    std::int32_t phase_slices = 0;
 };
 
-/// Lights every pixel of `page` (frame_bytes(display) in scan-out order, or empty: dark) that is not zero.
+/// Lights every pixel of `page` (frame_bytes(display) in scan-out order, or empty: dark) that is not zero, at the place
+/// that driver/display/description.h gives it, to about 1e-12 of the display's size. A plane that is lit both ways
+/// flashes once a slice, as its two flashes are one place. Dark pixels cost next to nothing. `display` must be valid
+/// (validate_display). Throws std::bad_alloc.
 LightField expose(const DisplayDescription& display, std::span<const std::byte> page, std::uint8_t brightness,
                   const Misbuild& misbuild = {});
+
+/// Height of the plane of a stack or of a swept plane in the middle of slice `slice`, or as long before and after it as
+/// a broken number says: slice − ½ is where a swept plane's slice begins. Between the planes of a stack that are
+/// uneven, as far as between their neighbours. −½ … slices − ½.
+double plane_height_mm(const DisplayDescription& display, double slice);
 
 }  // namespace xorvox::sim

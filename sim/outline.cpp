@@ -3,15 +3,46 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
+#include <glm/trigonometric.hpp>
+
+#include "sim/optics.h"
+#include "sim/space.h"
 #include "sim/surface.h"
 
 namespace xorvox::sim {
 namespace {
 
-constexpr double kMore =
-    0.5 * (double{kVoxelFilling} - 1.0);  ///< In pitches: how far voxels are drawn beyond their space.
+constexpr double kHalf = 0.5 * double{kVoxelFilling};  ///< Half a voxel, as it is drawn, in pitches.
+
+/// The outermost LEDs of a panel, as far as they reach from the axis and up and down.
+void include_panel(DisplayExtent& space, const Panel& panel) {
+    const double tilt = glm::radians(panel.tilt_deg);
+    const double along = std::abs(panel.shift_mm) + 0.5 * (upright_columns(panel) - 1) * upright_column_pitch_mm(panel);
+    const double half_height = 0.5 * (upright_rows(panel) - 1) * upright_row_pitch_mm(panel);
+    for (const double b : {-half_height, half_height}) {
+        for (const double skew : {0.0, panel.skew_mm}) {
+            const double out = panel.offset_mm + skew + b * std::sin(tilt);
+            const double up = panel.lift_mm + b * std::cos(tilt);
+            space.radius_mm = std::max(space.radius_mm, std::hypot(along, out));
+            space.lower.z = std::min(space.lower.z, up);
+            space.upper.z = std::max(space.upper.z, up);
+        }
+    }
+}
+
+DisplayExtent drawn_cylinder(const DisplayDescription& display) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    const Spacing spacing = spacing_of(display);
+    DisplayExtent space{glm::dvec3(kFar), glm::dvec3(-kFar), 0.0};
+    for (std::uint32_t p = 0; p < display.panel_count; ++p) include_panel(space, display.panels[p]);
+    space.radius_mm += kHalf * spacing.across_mm;
+    space.lower = {-space.radius_mm, -space.radius_mm, space.lower.z - kHalf * spacing.up_mm};
+    space.upper = {space.radius_mm, space.radius_mm, space.upper.z + kHalf * spacing.up_mm};
+    return space;
+}
 
 void add_ring(std::vector<Segment>& segments, double radius_mm, double z_mm) {
     constexpr int kSides = 180;
@@ -25,25 +56,28 @@ void add_ring(std::vector<Segment>& segments, double radius_mm, double z_mm) {
 }  // namespace
 
 DisplayExtent drawn_extent(const DisplayDescription& display) {
+    if (display.kind == DisplayKind::RotatingPanel) return drawn_cylinder(display);
+    const Panel& panel = display.panels[0];
+    const Spacing spacing = spacing_of(display);
+    const glm::dvec3 pitch_mm(spacing.across_mm, spacing.along_mm, spacing.up_mm);
     DisplayExtent box = extent(display);
-    const Panel& first = display.panels[0];
-    if (display.kind == DisplayKind::StackedPlanes) {
-        const glm::dvec3 pitch_mm(first.column_pitch_mm, first.row_pitch_mm, display.plane_pitch_mm);
-        box.lower -= kMore * pitch_mm;
-        box.upper += kMore * pitch_mm;
+    if (display.kind == DisplayKind::FreePoints) {
+        // Half a column's pitch, by which it is larger than the points, says nothing of how they are drawn.
+        box.lower += 0.5 * panel.column_pitch_mm - kHalf * pitch_mm;
+        box.upper -= 0.5 * panel.column_pitch_mm - kHalf * pitch_mm;
         return box;
     }
-    double outermost_mm = 0.0;
-    double widest_mm = 0.0;
-    for (std::uint32_t p = 0; p < display.panel_count; ++p) {
-        const Panel& panel = display.panels[p];
-        const double along_mm = std::abs(panel.shift_mm) + 0.5 * (panel.columns - 1) * panel.column_pitch_mm;
-        outermost_mm = std::max(outermost_mm, std::hypot(along_mm, panel.offset_mm));
-        widest_mm = std::max(widest_mm, panel.column_pitch_mm);
+    box.lower -= (kHalf - 0.5) * pitch_mm;
+    box.upper += (kHalf - 0.5) * pitch_mm;
+    if (display.kind == DisplayKind::Helix) {
+        box.lower.z -= 0.5 * spacing.up_mm;  // its samples reach to the ends of the stroke
+        box.upper.z += 0.5 * spacing.up_mm;
+        return box;
     }
-    const double radius_mm = outermost_mm + (0.5 + kMore) * widest_mm;
-    const double up_mm = kMore * first.row_pitch_mm;
-    return {{-radius_mm, -radius_mm, box.lower.z - up_mm}, {radius_mm, radius_mm, box.upper.z + up_mm}, radius_mm};
+    const std::uint32_t top = display.slices - 1;
+    box.lower.z = plane_height_mm(display, 0.0) - kHalf * plane_thickness_mm(display, 0);
+    box.upper.z = plane_height_mm(display, top) + kHalf * plane_thickness_mm(display, top);
+    return box;
 }
 
 std::vector<Segment> outline(const DisplayDescription& display) {

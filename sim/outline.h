@@ -15,13 +15,12 @@ struct Segment {
     glm::dvec3 to_mm{0.0};
 };
 
-/// The space of a display as pictures show it: half a pitch beyond its outermost samples, and as much more as its
-/// voxels are drawn too large (kVoxelFilling), so that none sticks out. The cylinder of a rotating panel is that of the
-/// widest panel. `display` must be valid.
+/// The space of a display as pictures show it: half a voxel, as large as it is drawn (kVoxelFilling), beyond its
+/// outermost samples, so that none sticks out. The cylinder of a rotating panel holds all of its panels; the other
+/// kinds have a box. `display` must be valid.
 DisplayExtent drawn_extent(const DisplayDescription& display);
 
-/// The twelve edges of a stack's box, or the rims of a rotating panel's cylinder with rings on its floor; of
-/// drawn_extent.
+/// The twelve edges of the box, or the rims of the cylinder with rings on its floor; of drawn_extent.
 std::vector<Segment> outline(const DisplayDescription& display);
 
 }  // namespace xorvox::sim

@@ -4,108 +4,159 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "driver/display/lattice.h"
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace xorvox::sim {
 namespace {
 
-constexpr double kSamePlace = 1e-6;  ///< In pitches. Far above rounding, far below what a display can tell apart.
-constexpr std::uint32_t kNoGroup = std::numeric_limits<std::uint32_t>::max();
+constexpr double kSamePlace = 1e-6;  ///< Of the smallest distance: far above rounding, far below what parts differ by.
+constexpr double kSamePoint = 1e-9;  ///< Of the size of a set of points, whose smallest distance is to be found.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double smallest_pitch_mm(const DisplayDescription& display) {
-    double pitch =
-        display.kind == DisplayKind::StackedPlanes ? display.plane_pitch_mm : std::numeric_limits<double>::infinity();
+double smallest_distance_mm(const DisplayDescription& display, const Lattice& lattice) {
+    const Panel& first = display.panels[0];
+    if (display.kind == DisplayKind::FreePoints) {
+        std::vector<glm::dvec3> places;
+        places.reserve(display.points.size());
+        double size = 0.0;
+        for (const PointMm& point : display.points) {
+            places.emplace_back(point.x, point.y, point.z);
+            size = std::max(size, glm::distance(places.back(), places.front()));
+        }
+        const double distance = smallest_distance(places, kSamePoint * size);
+        return distance < kInfinity ? distance : first.column_pitch_mm;
+    }
+    double distance = lattice.is_regular() ? lattice.pitch.z : kInfinity;
+    for (std::size_t k = 1; k < lattice.z.size(); ++k) distance = std::min(distance, lattice.z[k] - lattice.z[k - 1]);
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
-        pitch = std::min({pitch, display.panels[p].column_pitch_mm, display.panels[p].row_pitch_mm});
+        distance = std::min({distance, display.panels[p].column_pitch_mm, display.panels[p].row_pitch_mm});
     }
-    return pitch;
+    return distance;
 }
 
-std::vector<glm::dvec2> plan_of(const Lattice& lattice) {
-    assert(lattice.z0.empty());  // Columns start at one height, so the nearest column has the nearest sample.
-    std::vector<glm::dvec2> plan;
-    plan.reserve(lattice.column_count());
-    for (std::uint32_t y = 0; y < lattice.ny; ++y) {
-        for (std::uint32_t x = 0; x < lattice.nx; ++x) plan.emplace_back(sample_position(lattice, x, y, 0));
+/// One entry a place, by sample number.
+void gather(std::vector<SeenPlace>& places) {
+    const auto lower = [](const SeenPlace& a, const SeenPlace& b) { return a.sample < b.sample; };
+    if (!std::ranges::is_sorted(places, lower)) std::ranges::sort(places, lower);
+    std::size_t kept = 0;
+    for (const SeenPlace& place : places) {
+        if (kept > 0 && places[kept - 1].sample == place.sample) {
+            places[kept - 1].visits += place.visits;
+            places[kept - 1].code_total += place.code_total;
+        } else {
+            places[kept++] = place;
+        }
     }
-    return plan;
-}
-
-std::vector<double> heights_of(const Lattice& lattice) {
-    std::vector<double> heights;
-    heights.reserve(lattice.nz);
-    for (std::uint32_t k = 0; k < lattice.nz; ++k) heights.push_back(sample_position(lattice, 0, 0, k).z);
-    return heights;
+    places.resize(kept);
 }
 
 }  // namespace
 
 DisplaySamples::DisplaySamples(const DisplayDescription& display)
-    : plan_mm_(plan_of(DisplayLattice(display).view())),
-      z_mm_(heights_of(DisplayLattice(display).view())),
-      reach_mm_(smallest_pitch_mm(display) / 4.0),
-      tree_(plan_mm_),
-      group_of_(plan_mm_.size(), kNoGroup),
-      group_begin_{0} {
-    const double same_place_mm = kSamePlace * smallest_pitch_mm(display);
-    columns_.reserve(plan_mm_.size());
-    for (std::size_t column = 0; column < plan_mm_.size(); ++column) {
-        if (group_of_[column] != kNoGroup) continue;
-        for (const std::uint32_t other : tree_.within(plan_mm_[column], same_place_mm)) {
-            if (group_of_[other] != kNoGroup) continue;
-            group_of_[other] = static_cast<std::uint32_t>(group_count());
-            columns_.push_back(other);
+    : owner_(display),
+      lattice_(owner_.view()),
+      reach_mm_(smallest_distance_mm(display, lattice_) / 4.0),
+      grid_(4.0 * reach_mm_, lattice_.is_regular() ? 0 : lattice_.column_count()) {
+    if (!lattice_.is_regular()) make_groups();
+}
+
+void DisplaySamples::make_groups() {
+    const double same_mm = 4.0 * reach_mm_ * kSamePlace;
+    group_of_.reserve(lattice_.column_count());
+    groups_.reserve(lattice_.column_count());
+    for (std::uint32_t y = 0; y < lattice_.ny; ++y) {
+        for (std::uint32_t x = 0; x < lattice_.nx; ++x) {
+            const auto column = static_cast<std::uint32_t>(group_of_.size());
+            const glm::dvec3 place = in_grid(sample_position(lattice_, x, y, 0));
+            const double z0 = lattice_.z0.empty() ? 0.0 : lattice_.z0[column];
+            auto group = static_cast<std::uint32_t>(groups_.size());
+            grid_.near(place, same_mm, [&](std::uint32_t found, double) {
+                assert(std::abs(groups_[found].z0 - z0) <= same_mm);
+                group = found;
+            });
+            if (group == groups_.size()) {
+                grid_.add(place);
+                groups_.push_back({z0, column});
+            }
+            group_of_.push_back(group);
         }
-        group_begin_.push_back(columns_.size());
     }
+    groups_.shrink_to_fit();
 }
 
-DisplaySamples::Nearest DisplaySamples::nearest(const glm::dvec3& place_mm) const {
-    const PlanTree::Nearest found = tree_.nearest({place_mm.x, place_mm.y});
-    auto above = std::lower_bound(z_mm_.begin(), z_mm_.end(), place_mm.z);
-    if (above == z_mm_.end() || (above != z_mm_.begin() && place_mm.z - *(above - 1) < *above - place_mm.z)) --above;
-    return {found.index, static_cast<std::uint32_t>(above - z_mm_.begin()),
-            std::hypot(found.distance, *above - place_mm.z)};
+/// The sample of a column at z0 = 0 that is nearest to `z`.
+std::uint32_t DisplaySamples::nearest_k(double z) const {
+    const std::span<const double> table = lattice_.z;
+    if (table.size() == 1) return 0;
+    // Mostly the table is even.
+    const double last = static_cast<double>(table.size() - 1);
+    const double step = (table.back() - table.front()) / last;
+    const auto guess = static_cast<std::size_t>(std::clamp((z - table.front()) / step + 0.5, 0.0, last));
+    if (std::abs(table[guess] - z) < reach_mm_) return static_cast<std::uint32_t>(guess);
+    auto above = std::ranges::lower_bound(table, z);
+    if (above == table.end() || (above != table.begin() && z - *(above - 1) < *above - z)) --above;
+    return static_cast<std::uint32_t>(above - table.begin());
 }
 
-Rebuilt DisplaySamples::nothing() const {
-    return {std::vector<std::uint32_t>(size()), std::vector<std::uint64_t>(size()), 0};
+std::uint64_t DisplaySamples::place_of(std::uint64_t sample) const {
+    if (lattice_.is_regular()) return sample;
+    const auto column = static_cast<std::size_t>(sample % lattice_.column_count());
+    return sample - column + groups_[group_of_[column]].column;
 }
 
-void DisplaySamples::count(Rebuilt& rebuilt, std::uint32_t column, std::size_t k, std::uint32_t code) const {
-    for (const std::uint32_t member : columns_of(group_of(column))) {
-        const std::size_t sample = k * column_count() + member;
-        ++rebuilt.visits[sample];
-        rebuilt.code_total[sample] += code;
-    }
+std::optional<std::uint64_t> DisplaySamples::place_near_regular(const glm::dvec3& place_mm) const {
+    const glm::dvec3 last(lattice_.nx - 1, lattice_.ny - 1, lattice_.nz - 1);
+    const glm::dvec3 steps = (place_mm - lattice_.origin) / lattice_.pitch;
+    const glm::dvec3 nearest = glm::clamp(glm::floor(steps), glm::dvec3(0.0), last);
+    const auto x = static_cast<std::uint32_t>(nearest.x);
+    const auto y = static_cast<std::uint32_t>(nearest.y);
+    const auto k = static_cast<std::uint32_t>(nearest.z);
+    if (glm::distance(sample_position(lattice_, x, y, k), place_mm) > reach_mm_) return std::nullopt;
+    return (std::uint64_t{k} * lattice_.ny + y) * lattice_.nx + x;
+}
+
+std::optional<std::uint64_t> DisplaySamples::place_near(const glm::dvec3& place_mm) const {
+    if (lattice_.is_regular()) return place_near_regular(place_mm);
+    double least = reach_mm_;
+    std::optional<std::uint64_t> nearest;
+    grid_.near(in_grid(place_mm), reach_mm_, [&](std::uint32_t group, double distance) {
+        if (distance > least) return;
+        const std::uint32_t k = nearest_k(place_mm.z - groups_[group].z0);
+        // Of a column of one sample, `distance` is all of it.
+        if (lattice_.nz > 1) distance = std::hypot(distance, groups_[group].z0 + lattice_.z[k] - place_mm.z);
+        if (distance > least) return;
+        least = distance;
+        nearest = std::uint64_t{k} * lattice_.column_count() + groups_[group].column;
+    });
+    return nearest;
 }
 
 Rebuilt DisplaySamples::rebuild(const LightField& field) const {
-    Rebuilt rebuilt = nothing();
+    Rebuilt rebuilt;
+    rebuilt.places.reserve(field.flashes.size());
     for (const Flash& flash : field.flashes) {
-        const Nearest found = nearest(flash.place_mm);
-        if (found.distance_mm <= reach_mm_) {
-            count(rebuilt, found.column, found.k, flash.code);
+        if (const auto place = place_near(flash.place_mm)) {
+            rebuilt.places.push_back({*place, flash.code, 1});
         } else {
             ++rebuilt.outside;
         }
     }
+    gather(rebuilt.places);
     return rebuilt;
 }
 
-Rebuilt DisplaySamples::faithful(std::span<const std::uint32_t> codes) const {
-    assert(codes.size() == size());
-    Rebuilt rebuilt = nothing();
-    for (std::size_t sample = 0; sample < codes.size(); ++sample) {
-        if (codes[sample] == 0) continue;
-        count(rebuilt, static_cast<std::uint32_t>(sample % column_count()), sample / column_count(), codes[sample]);
+Rebuilt DisplaySamples::faithful(std::span<const SampleCode> codes) const {
+    Rebuilt rebuilt;
+    rebuilt.places.reserve(codes.size());
+    for (const SampleCode& lit : codes) {
+        assert(lit.sample < size() && lit.code != 0);
+        rebuilt.places.push_back({place_of(lit.sample), lit.code, 1});
     }
+    gather(rebuilt.places);
     return rebuilt;
-}
-
-Rebuilt rebuild(const DisplayDescription& display, const LightField& field) {
-    return DisplaySamples(display).rebuild(field);
 }
 
 }  // namespace xorvox::sim

@@ -3,7 +3,8 @@
 
 namespace xorvox::sim {
 
-/// A voxel is an ellipsoid. The vertex shader spans a square that faces the eye and just holds its ball.
+/// A voxel is an ellipsoid. The vertex shader spans a rectangle through its middle that faces the eye and holds all
+/// that is seen of it, even where it is nearest to the eye.
 inline constexpr const char* kVoxelVertex = R"(#version 450 core
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 half_size;
@@ -20,14 +21,16 @@ flat out vec3 voxel_normal;
 flat out vec3 voxel_light;
 flat out float voxel_open;
 out vec3 from_middle;
+float reach_along(vec3 v) {
+    return length(half_size * vec3(dot(v.xy, across), dot(v.xy, vec2(-across.y, across.x)), v.z));
+}
 void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     float away = length(place);
     vec3 side = normalize(cross(place, camera_up));
     vec3 top = cross(side, place / away);
-    float ball = max(half_size.x, max(half_size.y, half_size.z));
-    float lean = ball / away;
-    from_middle = (corner.x * side + corner.y * top) * ball / sqrt(max(1.0 - lean * lean, 0.01));
+    float nearer = 1.0 - reach_along(place / away) / away;
+    from_middle = (corner.x * reach_along(side) * side + corner.y * reach_along(top) * top) / max(nearer, 0.1);
     voxel_place = place;
     voxel_half = half_size;
     voxel_across = across;

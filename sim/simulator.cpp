@@ -2,30 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "driver/device/config.h"
+#include "driver/device/scan_control.h"
 #include "driver/display/toml.h"
 
 namespace xorvox::sim {
-namespace {
-
-/// After a long pause only the last cycles are gone through: more than this many pages cannot be waiting.
-constexpr std::uint64_t kMostCyclesPerPoll = device::kMaxPages;
-
-}  // namespace
-
 struct Simulator::Impl {
     DisplayDescription display;
     Misbuild misbuild;
-    std::uint64_t cycle_length_ns = 0;
-    std::uint64_t cycle = 0;  ///< Number of the cycle that the display is in; cycle 0 begins at time 0.
     std::vector<std::byte> pages;
     std::vector<std::byte> packet;
     device::Device device;
+    device::ScanControl control;
 };
 
 Simulator::Simulator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -38,7 +31,6 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
     auto impl = std::make_unique<Impl>();
     impl->display = display;
     impl->misbuild = options.misbuild;
-    impl->cycle_length_ns = std::max<std::uint64_t>(1, cycle_ns(display));
     impl->pages.resize(std::size_t{options.pages} * frame_bytes(display));
     impl->packet.resize(options.max_packet_bytes);
 
@@ -56,15 +48,19 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
             display.name.view(), to_string(status), options.pages, device::kMaxPages, options.max_packet_bytes,
             wire::kMinPacketBytes, wire::kMaxPacketBytes));
     }
+    // The motor keeps to the device's clock: cycle 0 begins at time 0, and the others where they should.
+    device::ScanControlConfig scan = device::scan_control_config(impl->display);
+    scan.rotation.source = IndexSource::None;
+    if (const Status status = impl->control.init(scan, impl->device, 0); status != Status::Ok) {
+        return fail(fmt::format("cannot simulate display {}: its scan-out cannot be computed in integers ({})",
+                                display.name.view(), to_string(status)));
+    }
     return Simulator(std::move(impl));
 }
 
 Status Simulator::poll(std::uint64_t now_ns) {
-    Impl& self = *impl_;
-    const std::uint64_t current = now_ns / self.cycle_length_ns;
-    if (current > self.cycle + kMostCyclesPerPoll) self.cycle = current - kMostCyclesPerPoll;
-    while (self.cycle < current) self.device.boundary(++self.cycle * self.cycle_length_ns);
-    return self.device.poll(now_ns);
+    (void)impl_->control.poll(now_ns);  // What it orders, the light of a whole cycle shows.
+    return impl_->device.poll(now_ns);
 }
 
 void Simulator::set_link(Link link) {
@@ -72,7 +68,7 @@ void Simulator::set_link(Link link) {
 }
 
 std::uint64_t Simulator::next_boundary_ns() const {
-    return (impl_->cycle + 1) * impl_->cycle_length_ns;
+    return impl_->control.next_boundary_ns();
 }
 
 LightField Simulator::light() const {

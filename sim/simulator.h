@@ -26,8 +26,9 @@ struct SimulatorOptions {
 /// Deterministic: everything follows from the packets and the times given to poll(). One thread.
 class Simulator {
 public:
-    /// A display that is switched on at time 0 with `link` at its plug (empty: see set_link). Fails for a display that
-    /// validate_display() refuses, with its words, and for sizes that no device has. Throws std::bad_alloc.
+    /// A display that is switched on at time 0 with `link` at its plug (empty: see set_link). `display` is copied; what
+    /// it borrows must outlive the simulator. Fails for a display that validate_display() refuses, with its words, and
+    /// for sizes that no device has. Throws std::bad_alloc.
     static Expected<Simulator> make(const DisplayDescription& display, Link link, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
     Simulator& operator=(Simulator&&) noexcept;

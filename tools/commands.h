@@ -54,14 +54,49 @@ struct VoxelizeOptions {
     bool signed_sum = false;  ///< Look for faults of orientation.
 };
 
+/// Pixels of a picture.
+struct PictureSize {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+/// Where light goes, and what is told of it; shared by show and pattern.
+struct DeliveryOptions {
+    std::string to = "loopback";
+    std::string png;
+    std::string view;  ///< "perspective", the default of --png, or "orthographic".
+    std::optional<PictureSize> size;
+    bool hold = false;  ///< Stay until a signal.
+    bool json = false;
+};
+
 struct ShowOptions {
     MeshOptions mesh;
     std::string display;
-    std::string to = "loopback";
     std::string color = "gradient";
-    std::string png;
-    std::string view;   ///< "perspective", the default of --png, or "orthographic".
-    bool hold = false;  ///< Stay until a signal.
+    std::string light = "bright";     ///< Or "uniform".
+    std::string sampling = "native";  ///< Or "cartesian".
+    std::optional<double> spin_rpm;   ///< Turn the model, streaming frames at the display's own rate.
+    double seconds = 10.0;            ///< Of spinning.
+    DeliveryOptions delivery;
+};
+
+struct PatternOptions {
+    std::string display;
+    std::string name;      ///< Empty with `list`.
+    double seconds = 0.0;  ///< Of a pattern that moves; 0: once through it.
+    DeliveryOptions delivery;
+};
+
+struct PlanOptions {
+    std::string display;
+    std::string link = "usb-hs";
+    std::optional<double> gpio_rate_hz;  ///< Words a second on the lines of --link gpio.
+    bool json = false;
+};
+
+struct ValidateOptions {
+    std::vector<std::string> files;
     bool json = false;
 };
 
@@ -84,6 +119,15 @@ struct BenchOptions {
 };
 
 struct DisplaysOptions {
+    std::string display;  ///< Empty: a list of all presets.
+    bool cpp = false;     ///< As a C++ header, for firmware.
+    bool json = false;
+};
+
+struct BenchDisplayOptions {
+    std::string mesh;
+    std::vector<std::string> displays;  ///< Empty: every preset.
+    bool quick = false;
     bool json = false;
 };
 
@@ -92,6 +136,10 @@ Expected<void> voxelize(const VoxelizeOptions& options);
 Expected<void> show(const ShowOptions& options);
 Expected<void> sim(const SimOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);
+Expected<void> bench_displays(const BenchDisplayOptions& options);
 Expected<void> displays(const DisplaysOptions& options);
+Expected<void> validate(const ValidateOptions& options);
+Expected<void> plan(const PlanOptions& options);
+Expected<void> pattern(const PatternOptions& options);
 
 }  // namespace xorvox::tools

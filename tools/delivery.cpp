@@ -1,13 +1,17 @@
 #include "tools/delivery.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <random>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "driver/host/faults.h"
 #include "driver/wire/packet.h"
 #include "sim/picture.h"
 #include "sim/simulator.h"
@@ -22,18 +26,6 @@
 namespace xorvox::tools {
 namespace {
 
-/// A display remembers the session before, so each gets another id; that of a recording follows from its frame, so that
-/// equal frames give equal files.
-host::SessionOptions session_options(bool two_way, const DisplayDescription& display,
-                                     std::span<const std::byte> frame) {
-    host::SessionOptions options;
-    // A slow display shows a frame a cycle after it came.
-    options.present_timeout_ns = std::max(options.present_timeout_ns, static_cast<std::int64_t>(2 * cycle_ns(display)));
-    const std::uint32_t number = two_way ? std::random_device()() : wire::crc32c(frame);
-    options.session = static_cast<std::uint16_t>(number % 0xffff + 1);
-    return options;
-}
-
 Expected<void> write_png(io::AtomicFile& file, const sim::Image& image) {
     const std::vector<std::byte> png = sim::encode_png(image);
     const auto written = file.write({reinterpret_cast<const char*>(png.data()), png.size()});
@@ -41,7 +33,7 @@ Expected<void> write_png(io::AtomicFile& file, const sim::Image& image) {
 }
 
 /// A display in this program, in simulated time: both ends move in turn, and the clock jumps when neither can.
-Expected<Delivery> show_in_process(const ShowOptions& options, const DisplayDescription& display,
+Expected<Delivery> show_in_process(const DeliveryOptions& options, const DisplayDescription& display,
                                    std::span<const std::byte> frame, std::size_t voxels, io::AtomicFile* png) {
     auto [host_end, device_end] = transport::make_loopback();
     Expected<sim::Simulator> simulator = sim::Simulator::make(display, device_end.get());
@@ -56,43 +48,19 @@ Expected<Delivery> show_in_process(const ShowOptions& options, const DisplayDesc
         if (session.state() == host::SessionState::Failed) return tl::unexpected(session.error());
         if (!submitted) submitted = session.submit(frame) == Status::Ok;
         if (host_moved == Status::WouldBlock && device_moved == Status::WouldBlock) {
-            constexpr std::uint64_t kStep_ns = 100'000'000;  // shorter than anybody's patience
-            now_ns = std::min(simulator->next_boundary_ns(), now_ns + kStep_ns);
+            now_ns = std::min(simulator->next_boundary_ns(), now_ns + kSimulatedStep_ns);
         }
     }
-
-    Delivery delivery{session.statistics(), std::nullopt, 0.0};
-    // Flashes, and what sorts and draws them.
-    constexpr std::uint64_t kBytesAPixel = 160;
-    if (const auto fits = check_memory(voxels * kBytesAPixel, "the light of " + thousands(voxels) + " pixels"); !fits) {
-        return tl::unexpected(fits.error());
-    }
-    const sim::LightField light = simulator->light();
-    {
-        const Progress progress("measuring the light");
-        delivery.light = sim::measure(display, light, simulator->device().status(now_ns));
-    }
-    if (png != nullptr) {
-        const Progress progress("drawing the picture");
-        sim::Picture picture;
-        if (options.view == "orthographic") {
-            picture = sim::render_orthographic(display, light);
-        } else {
-            Expected<sim::Picture> drawn = sim::render_perspective(display, light);
-            if (!drawn) return fail(drawn.error().message + "; --view orthographic needs no OpenGL");
-            picture = std::move(*drawn);
-        }
-        if (const auto written = write_png(*png, picture.image); !written) {
-            return tl::unexpected(written.error());
-        }
-        delivery.picture_covered = picture.covered;
-    }
+    Delivery delivery{session.statistics(), std::nullopt};
+    Expected<LightSeen> seen = look_at(*simulator, now_ns, voxels, options, png);
+    if (!seen) return tl::unexpected(seen.error());
+    delivery.light = std::move(*seen);
     return delivery;
 }
 
 /// Sends the frame and waits until it is presented, or, where there is no way back, until the link has all of it. With
 /// --hold it stays, which keeps the display's watchdog quiet, until a signal comes.
-Expected<Delivery> send_over(Link link, const ShowOptions& options, const DisplayDescription& display,
+Expected<Delivery> send_over(Link link, const DeliveryOptions& options, const DisplayDescription& display,
                              std::span<const std::byte> frame) {
     const bool two_way = link.info().two_way;
     if (!two_way && !options.json) {
@@ -118,8 +86,9 @@ Expected<Delivery> send_over(Link link, const ShowOptions& options, const Displa
         // Whatever it says, the session's own time-outs are looked at next.
         (void)link.wait(session.events(), 20'000'000);
     }
-    if (two_way && session.device_status().fault == wire::Fault::Scan) {
-        warn(options.to + ": the display reports a fault of its scanner and stays dark until that is cleared");
+    const wire::DeviceStatus& device = session.device_status();
+    if (two_way && (device.faults & ~wire::fault_bit(wire::Fault::SilentHost)) != 0) {
+        warn(fmt::format("{}: the display has the frame but stays dark: {}", options.to, host::describe(device.fault)));
     }
     progress.reset();
     if (options.hold) {
@@ -131,12 +100,91 @@ Expected<Delivery> send_over(Link link, const ShowOptions& options, const Displa
             if (moved == Status::WouldBlock) (void)link.wait(session.events(), 100'000'000);
         }
     }
-    return Delivery{session.statistics(), std::nullopt, 0.0};
+    return Delivery{session.statistics(), std::nullopt};
 }
 
 }  // namespace
 
-Expected<Delivery> deliver(const ShowOptions& options, const transport::Address& address,
+host::SessionOptions session_options(bool two_way, const DisplayDescription& display,
+                                     std::span<const std::byte> frame) {
+    host::SessionOptions options;
+    // A slow display shows a frame a cycle after it came.
+    options.present_timeout_ns = std::max(options.present_timeout_ns, static_cast<std::int64_t>(2 * cycle_ns(display)));
+    const std::uint32_t number = two_way ? std::random_device()() : wire::crc32c(frame);
+    options.session = static_cast<std::uint16_t>(number % 0xffff + 1);
+    return options;
+}
+
+Expected<void> check_delivery(const DeliveryOptions& options, const transport::Address& address,
+                              const std::string& input) {
+    const bool here = address.kind == transport::AddressKind::Loopback;
+    if (!options.png.empty()) {
+        if (!here) {
+            return fail(
+                "--png draws the light of a display in this program and needs --to loopback; leave out one of them");
+        }
+        std::string extension = std::filesystem::path(options.png).extension().string();
+        for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        if (extension != ".png")
+            return fail(fmt::format("--png {}: the picture is a PNG; give it a name that ends in .png", options.png));
+    }
+    if (!options.view.empty() && options.png.empty())
+        return fail("--view says what --png draws; give --png OUT.png too");
+    if (options.size) {
+        if (options.png.empty()) return fail("--size is that of --png; give --png OUT.png too");
+        const auto [width, height] = *options.size;
+        if (std::min(width, height) < 48 || std::max(width, height) > 4096) {
+            return fail(fmt::format("--size {}x{}: a picture has 48 to 4096 pixels a side", width, height));
+        }
+    }
+    if (options.hold && address.kind != transport::AddressKind::Tcp) {
+        return fail("--hold keeps a display at the other end of a tcp link lit; use it with --to tcp:HOST:PORT");
+    }
+    std::error_code missing;
+    for (const std::string& out : {options.png, address.path}) {
+        if (!out.empty() && !input.empty() && std::filesystem::equivalent(out, input, missing)) {
+            return fail(out + " is the input itself; choose another name for the output");
+        }
+    }
+    return {};
+}
+
+Expected<LightSeen> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t voxels,
+                            const DeliveryOptions& options, io::AtomicFile* png) {
+    // Flashes, and what sorts and draws them.
+    constexpr std::uint64_t kBytesAPixel = 160;
+    if (const auto fits = check_memory(voxels * kBytesAPixel, "the light of " + thousands(voxels) + " pixels"); !fits) {
+        return tl::unexpected(fits.error());
+    }
+    const DisplayDescription& display = simulator.display();
+    const sim::LightField light = simulator.light();
+    LightSeen seen;
+    {
+        const Progress progress("measuring the light");
+        seen.statistics = sim::measure(display, light, simulator.device().status(now_ns));
+    }
+    if (png == nullptr) return seen;
+    const Progress progress("drawing the picture");
+    sim::Picture picture;
+    if (options.view == "orthographic") {
+        picture = options.size ? sim::render_orthographic(display, light, options.size->width / 3)
+                               : sim::render_orthographic(display, light);
+    } else {
+        sim::PictureOptions wanted;
+        if (options.size) {
+            wanted.width = options.size->width;
+            wanted.height = options.size->height;
+        }
+        Expected<sim::Picture> drawn = sim::render_perspective(display, light, wanted);
+        if (!drawn) return fail(drawn.error().message + "; --view orthographic needs no OpenGL");
+        picture = std::move(*drawn);
+    }
+    if (const auto written = write_png(*png, picture.image); !written) return tl::unexpected(written.error());
+    seen.picture_covered = picture.covered;
+    return seen;
+}
+
+Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Address& address,
                            const DisplayDescription& display, std::span<const std::byte> frame, std::size_t voxels,
                            io::AtomicFile* png) {
     switch (address.kind) {

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "driver/display/description.h"
 #include "driver/host/session.h"
+#include "sim/simulator.h"
 #include "sim/statistics.h"
 #include "tools/commands.h"
 #include "transport/address.h"
@@ -14,16 +16,37 @@
 
 namespace xorvox::tools {
 
+/// What a display in this program showed.
+struct LightSeen {
+    sim::Statistics statistics;
+    double picture_covered = 0.0;  ///< The part of the picture that is the object; 0 without one.
+};
+
 /// What became of the frame.
 struct Delivery {
     host::SessionStatistics session;
-    std::optional<sim::Statistics> light;  ///< Of the display in this program, on loopback.
-    double picture_covered = 0.0;
+    std::optional<LightSeen> light;  ///< On loopback.
 };
+
+/// How far the clock of a display in this program goes when nothing moves: shorter than anybody's patience.
+inline constexpr std::uint64_t kSimulatedStep_ns = 100'000'000;
+
+/// A display remembers the session before, so each gets another id; that of a recording follows from its first frame,
+/// so that equal frames give equal files.
+host::SessionOptions session_options(bool two_way, const DisplayDescription& display, std::span<const std::byte> frame);
+
+/// Measures what `simulator` shows, at most `voxels` pixels, and draws it into `png` if there is one.
+Expected<LightSeen> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t voxels,
+                            const DeliveryOptions& options, io::AtomicFile* png);
+
+/// What of `options` can be refused before any work: --png without loopback, its name, --view without it, --hold
+/// without tcp, an output that would overwrite the file `input` (empty: none).
+Expected<void> check_delivery(const DeliveryOptions& options, const transport::Address& address,
+                              const std::string& input);
 
 /// Sends `frame`, in which `voxels` pixels are lit, and waits until the display shows it, or a link without a way back
 /// has taken it. `png`, on loopback: where a picture of the light goes; null for none.
-Expected<Delivery> deliver(const ShowOptions& options, const transport::Address& address,
+Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Address& address,
                            const DisplayDescription& display, std::span<const std::byte> frame, std::size_t voxels,
                            io::AtomicFile* png);
 

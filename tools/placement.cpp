@@ -92,15 +92,12 @@ Expected<void> check_memory(std::uint64_t bytes, const std::string& what) {
 Expected<void> check_display_fits(const DisplayDescription& display) {
     constexpr std::uint64_t kFrames = 8;
     constexpr std::uint64_t kBytesAColumn = 64;
-    const std::uint64_t columns =
-        frame_pixels(display) / std::max<std::uint64_t>(1, display.kind == DisplayKind::RotatingPanel
-                                                               ? display.panels[0].rows
-                                                               : display.slices);
-    return check_memory(kFrames * frame_bytes(display) + columns * kBytesAColumn + frame_pixels(display) / 8,
-                        fmt::format("the display {}", display.name.view()));
+    return check_memory(
+        kFrames * frame_bytes(display) + lattice_columns(display) * kBytesAColumn + frame_pixels(display) / 8,
+        fmt::format("the display {}", display.name.view()));
 }
 
-Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, const std::string& source) {
+Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, const std::string& source, bool turns) {
     const Expected<Box> box = bounds(mesh.view());
     if (!box) return fail(source + ": " + box.error().message);
     const DisplayExtent room = extent(display);
@@ -113,12 +110,13 @@ Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, con
         if (needed > 0.0) scale = std::min(scale, available / needed);
     };
     limit(space.z, size.z);
-    if (room.radius_mm > 0.0) {
+    if (room.radius_mm > 0.0 || turns) {
+        const double radius = room.radius_mm > 0.0 ? room.radius_mm : std::min(space.x, space.y) / 2.0;
         double reach = 0.0;
         for (const std::uint32_t index : mesh.indices) {
             reach = std::max(reach, glm::distance(glm::dvec2(mesh.positions[index]), glm::dvec2(center)));
         }
-        limit(room.radius_mm, reach);
+        limit(radius, reach);
     } else {
         limit(space.x, size.x);
         limit(space.y, size.y);

@@ -22,7 +22,9 @@ Expected<void> check_memory(std::uint64_t bytes, const std::string& what);
 /// lattice and a volume.
 Expected<void> check_display_fits(const DisplayDescription& display);
 
-/// Scales the mesh uniformly and moves it so that it fills the display's extent, centred, its z axis up.
-Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, const std::string& source);
+/// Scales the mesh uniformly and moves it so that it fills the display's extent, centred, its z axis up. One that
+/// `turns` about the middle of the display stays within it.
+Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, const std::string& source,
+                              bool turns = false);
 
 }  // namespace xorvox::tools

@@ -77,7 +77,7 @@ Expected<void> sim(const SimOptions& options) {
     if (address->kind != transport::AddressKind::Tcp) {
         return fail(fmt::format("--listen {}: a simulated display is reached by tcp; use tcp:PORT", options.listen));
     }
-    const Expected<DisplayDescription> display = load_display(options.display);
+    const Expected<DisplayFile> display = load_display(options.display);
     if (!display) return tl::unexpected(display.error());
     if (const auto fits = check_display_fits(*display); !fits) return fits;
     // As a device draws one at each start: hosts that come again see that this is another run.

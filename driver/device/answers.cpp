@@ -63,7 +63,7 @@ Hello Device::hello(std::uint64_t now_ns) const {
             .pages = pages_.count(),
             .max_packet_bytes = std::min(static_cast<std::uint32_t>(packet_.size()), link_.info().max_packet_bytes),
             .codecs = 1u << static_cast<unsigned>(Codec::Raw) | 1u << static_cast<unsigned>(Codec::Lz4),
-            .fault = fault_,
+            .fault = fault(),
             .free_pages = pages_.free_count(),
             .device_time_ns = now_ns,
             .host_time_ns = hello_host_time_ns_};
@@ -71,15 +71,16 @@ Hello Device::hello(std::uint64_t now_ns) const {
 
 DeviceStatus Device::status(std::uint64_t now_ns) const {
     DeviceStatus status{.brightness = brightness_,
-                        .blank = static_cast<std::uint8_t>(blank_ || fault_ != Fault::None ? 1 : 0),
+                        .blank = static_cast<std::uint8_t>(blank_ || faults_ != 0 ? 1 : 0),
                         .silence_action = silence_action_,
                         .watchdog_ms = watchdog_ms_,
-                        .fault = fault_,
+                        .fault = fault(),
                         .free_pages = pages_.free_count(),
                         .frames_accepted = frames_accepted_,
                         .frames_dropped = frames_dropped_,
                         .packets_bad = packets_bad_,
-                        .device_time_ns = now_ns};
+                        .device_time_ns = now_ns,
+                        .faults = faults_};
     if (pages_.shown() != Pages::kNone) {
         status.has_frame = 1;
         status.shown_frame = pages_.page(pages_.shown()).frame;

@@ -1,6 +1,7 @@
 #include "driver/device/device.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace xorvox::device {
 
@@ -219,8 +220,8 @@ bool Device::apply(const Control& control) {
             return true;
         case ControlOperation::Watchdog: watchdog_ms_ = value; return true;
         case ControlOperation::ClearFault:
-            if (value != 0) return false;
-            fault_ = Fault::None;
+            if (value == 0 || value > kHighestFault) return false;
+            faults_ &= ~fault_bit(static_cast<Fault>(value));
             return true;
         case ControlOperation::Status: return value == 0;
     }
@@ -237,9 +238,14 @@ void Device::watch(std::uint64_t now_ns) {
 }
 
 void Device::raise_fault(Fault fault) {
-    if (fault <= fault_) return;
-    fault_ = fault;
+    if (fault == Fault::None || static_cast<std::uint8_t>(fault) > kHighestFault) return;
+    if ((faults_ & fault_bit(fault)) != 0) return;
+    faults_ |= fault_bit(fault);
     answers_.status = session_ != 0;
+}
+
+Fault Device::fault() const {
+    return faults_ == 0 ? Fault::None : static_cast<Fault>(std::bit_width(faults_) - 1);
 }
 
 void Device::boundary(std::uint64_t now_ns) {
@@ -256,7 +262,7 @@ void Device::boundary(std::uint64_t now_ns) {
 }
 
 Shown Device::shown() const {
-    if (blank_ || fault_ != Fault::None || pages_.shown() == Pages::kNone) return {.brightness = brightness_};
+    if (blank_ || faults_ != 0 || pages_.shown() == Pages::kNone) return {.brightness = brightness_};
     return {pages_.bytes(pages_.shown()), pages_.page(pages_.shown()).frame, brightness_};
 }
 

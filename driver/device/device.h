@@ -6,8 +6,9 @@
 //
 //   receive ─► decode into the target page ─► check ─► pending ─► (boundary) ─► shown
 //
-// One thread (or the main loop) calls everything; `boundary()` and `shown()` may instead be called by one interrupt
-// handler as long as it does not interrupt `poll()` — the platform masks it there.
+// One thread (or the main loop) calls everything; `boundary()`, `shown()`, `raise_fault()` and `faults()`, and so
+// ScanControl::poll(), may instead be called by one interrupt handler as long as it does not interrupt `poll()` — the
+// platform masks it there.
 #pragma once
 
 #include <array>
@@ -66,9 +67,14 @@ public:
     /// What to scan out until the next boundary; dark while blanked, by command, by policy or by a fault.
     Shown shown() const;
 
-    /// Reports a fault from the scanner; latched, blanks, cleared by the host's command only. Of several the one with
-    /// the highest number is kept: a host that clears a silent host's must not light a panel that cannot be scanned.
+    /// Latches a fault: the display is dark until a host's command has cleared it and every other one. The host is told
+    /// of each when it rises. None and unknown numbers do nothing. ScanControl raises all but the silent host's.
     void raise_fault(wire::Fault fault);
+
+    /// fault_bit() of every fault that is latched.
+    std::uint32_t faults() const { return faults_; }
+    /// The one of them with the highest number, or None.
+    wire::Fault fault() const;
 
     /// The link changed (the caller accepted another client): the session ends, the picture stays as the silence policy
     /// says.
@@ -139,7 +145,7 @@ private:
     bool blank_ = false;
     wire::SilenceAction silence_action_ = wire::SilenceAction::Blank;
     std::uint32_t watchdog_ms_ = 2000;
-    wire::Fault fault_ = wire::Fault::None;
+    std::uint32_t faults_ = 0;
     std::uint32_t frames_accepted_ = 0;
     std::uint32_t frames_dropped_ = 0;
     std::uint32_t packets_bad_ = 0;

@@ -1,14 +1,25 @@
 // DisplayLattice: the sample points of a display, one for every pixel of a frame, in millimetres.
 //
-//   kind             x                          y        k (upwards)
-//   stacked planes   column                     row      plane                         regular plan
-//   rotating panel   column, panel after panel  slice    row, counted from the lowest  table plan
+//   kind              x                           y        k (upwards)
+//   stacked planes    column                      row      plane                     regular plan; table where uneven
+//   swept plane       column                      row      slice, from the lowest    regular plan; table where uneven
+//   rotating, upright upright column: of panel 0  slice    height, from the lowest   table plan
+//                     from left to right as seen
+//                     by who looks at its face,
+//                     then of panel 1 …
+//   rotating, else    pixel of the slice, in      slice    0: nz is 1                table plan and z0
+//                     scan-out order
+//   helix             column                      row      step of height; in which  table plan and z0
+//                                                          slice: helix_k()
+//   free points       pixel, in scan-out order    0        0: nz is 1                table plan and z0
 //
-// One z table serves every column, so the panels of a rotating display must have their rows at the same heights:
-// validate_display refuses others. Sines and cosines are computed without the C library, so that every machine makes
-// the same lattice, bit for bit.
+// A rotating display is upright when its LEDs stand above each other in columns of one height: no panel is tilted, none
+// that is turned on its side is skewed, and all have as many LEDs one above the other, at the same heights. Sines,
+// cosines and angles are computed without the C library, so that every machine makes the same lattice, bit for bit.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "driver/display/description.h"
@@ -25,20 +36,61 @@ public:
     /// Borrowed from this object; moving the object keeps it valid.
     Lattice view() const;
 
+    /// Helix: the k that slice 0 lights in each column, y·nx + x; empty on other kinds. From slice to slice it falls by
+    /// one, or with `clockwise` rises, modulo nz.
+    std::span<const std::uint32_t> helix_k() const { return helix_k_; }
+
 private:
+    void make_stack(const DisplayDescription& display);
+    void make_swept(const DisplayDescription& display);
+    void make_upright(const DisplayDescription& display);
+    void make_pixels(const DisplayDescription& display);
+    void make_helix(const DisplayDescription& display);
+    void make_points(const DisplayDescription& display);
+    void put_regular_plan(const Panel& panel);
+
     Lattice lattice_;  ///< Without the tables.
     std::vector<glm::dvec2> plan_;
+    std::vector<double> z0_;
     std::vector<double> z_;
+    std::vector<std::uint32_t> helix_k_;
 };
+
+/// LEDs of `panel` from left to right, and one above the other, as it is mounted.
+constexpr std::uint32_t upright_columns(const Panel& panel) {
+    return panel.turned % 2 == 1 ? panel.rows : panel.columns;
+}
+constexpr std::uint32_t upright_rows(const Panel& panel) {
+    return panel.turned % 2 == 1 ? panel.columns : panel.rows;
+}
+constexpr double upright_column_pitch_mm(const Panel& panel) {
+    return panel.turned % 2 == 1 ? panel.row_pitch_mm : panel.column_pitch_mm;
+}
+constexpr double upright_row_pitch_mm(const Panel& panel) {
+    return panel.turned % 2 == 1 ? panel.column_pitch_mm : panel.row_pitch_mm;
+}
+
+/// Where pixel (column, row) of the wire is on the face of a panel as it is mounted: counted from the left, and from
+/// the lowest.
+struct UprightPixel {
+    std::uint32_t column = 0;
+    std::uint32_t row = 0;
+};
+UprightPixel upright_pixel(const Panel& panel, std::uint32_t column, std::uint32_t row);
+
+/// Whether a rotating display is upright, as the head of this file says.
+bool is_upright(const DisplayDescription& display);
+
+/// Columns of the display's lattice, nx·ny: at most kMaxLatticeColumns on a valid display.
+std::size_t lattice_columns(const DisplayDescription& display);
 
 /// Where the samples are: the box around all of them, and for rotating displays the upright cylinder about z in which a
 /// model is placed, since every panel sweeps all of it (but the inside of its own offset from the axis). Both reach
-/// half a pitch beyond the outermost samples.
+/// half a pitch beyond the outermost samples; among free points, half of column_pitch_mm.
 struct DisplayExtent {
     glm::dvec3 lower{0.0};  ///< Of the box, mm.
     glm::dvec3 upper{0.0};
-    double radius_mm =
-        0.0;  ///< Of the cylinder, which is as high as the box; 0 on stacked planes: the box is the place.
+    double radius_mm = 0.0;  ///< Of the cylinder, as high as the box; 0 on other kinds: the box is the place.
 };
 /// `display` must be valid.
 DisplayExtent extent(const DisplayDescription& display);

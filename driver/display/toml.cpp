@@ -1,352 +1,358 @@
 #include "driver/display/toml.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <numeric>
-#include <optional>
-#include <span>
-#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
-// toml++ 3.3 asserts, or under NDEBUG tells the compiler to assume, some things that bad text breaks (as a control
-// character after "[" does), just before it finds and reports the error in good order. So neither.
-#undef NDEBUG
-#define TOML_ASSERT(condition) static_assert(true)
-#define TOML_EXCEPTIONS 0
-#define TOML_ENABLE_FORMATTERS 0
-#include <toml++/toml.h>
-
+#include "driver/display/names.h"
 #include "driver/display/rules.h"
-#include "driver/display/toml_guard.h"
+#include "driver/display/toml_table.h"
+#include "driver/display/toml_tree.h"
 
 namespace xorvox {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
+using display::kAllKinds;
+using display::Key;
+using display::Kinds;
+using display::TomlNode;
+using display::TomlTable;
 
-/// A key that a table may have.
-struct Key {
-    std::string_view name;
-    bool required = false;
-    std::optional<DisplayKind> only_for;
-};
+constexpr Kinds kNone{};
+constexpr Kinds kStack{DisplayKind::StackedPlanes};
+constexpr Kinds kRotor{DisplayKind::RotatingPanel};
+constexpr Kinds kSwept{DisplayKind::SweptPlane};
+constexpr Kinds kHelix{DisplayKind::Helix};
+constexpr Kinds kTurns{DisplayKind::RotatingPanel, DisplayKind::Helix};
+constexpr Kinds kStroke{DisplayKind::SweptPlane, DisplayKind::Helix};
+constexpr Kinds kFree{DisplayKind::FreePoints};
+constexpr Kinds kFlat{DisplayKind::StackedPlanes, DisplayKind::RotatingPanel, DisplayKind::SweptPlane,
+                      DisplayKind::Helix};
 
 constexpr Key kDisplayKeys[] = {
-    {"name", true},
+    {"name", kAllKinds},
     {"summary"},
-    {"kind", true},
-    {"format", true},
-    {"slices", true},
-    {"plane_pitch_mm", true, DisplayKind::StackedPlanes},
-    {"cycles_per_second", true},
-    {"clockwise", false, DisplayKind::RotatingPanel},
-    {"panel", true},
+    {"assumed"},
+    {"kind", kAllKinds},
+    {"format", kAllKinds},
+    {"slices", kFlat, kFlat},
+    {"cycles_per_second", kAllKinds},
+    {"plane_pitch_mm", kNone, kStack},
+    {"plane_heights_mm", kNone, kStack},
+    {"sweep_deg", kNone, kRotor},
+    {"clockwise", kNone, kTurns},
+    {"blades", kNone, kHelix},
+    {"points", kFree, kFree},
+    {"motion", kStroke, kStroke},
+    {"sync"},
+    {"scan"},
+    {"power"},
+    {"panel", kAllKinds},
 };
 
 constexpr Key kPanelKeys[] = {
-    {"columns", true},
-    {"rows", true},
-    {"column_pitch_mm", true},
-    {"row_pitch_mm", true},
-    {"shift_mm", false, DisplayKind::RotatingPanel},
-    {"offset_mm", false, DisplayKind::RotatingPanel},
-    {"lift_mm", false, DisplayKind::RotatingPanel},
-    {"angle_deg", false, DisplayKind::RotatingPanel},
+    {"columns", kAllKinds},
+    {"rows", kAllKinds},
+    {"column_pitch_mm", kFlat},
+    {"row_pitch_mm", kFlat},
+    {"shift_mm", kNone, kRotor},
+    {"offset_mm", kNone, kRotor},
+    {"lift_mm", kNone, kRotor},
+    {"angle_deg", kNone, kRotor},
+    {"tilt_deg", kNone, kRotor},
+    {"skew_mm", kNone, kRotor},
+    {"mirrored", kNone, kRotor},
+    {"turned", kNone, kRotor},
+    {"connector"},
+    {"chain_position"},
 };
 
-bool is_control(char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-}
+constexpr Key kMotionKeys[] = {
+    {"stroke_mm", kStroke},       {"profile", kNone, kSwept}, {"both_ways", kNone, kSwept},
+    {"dead_zone", kNone, kSwept}, {"table", kNone, kSwept},
+};
 
-/// `text` on one line.
-std::string one_line(std::string_view text) {
-    std::string line(text);
-    std::replace_if(line.begin(), line.end(), is_control, '?');
-    return line;
-}
+constexpr Key kSyncKeys[] = {
+    {"index"}, {"index_pulses"}, {"index_phase"}, {"slowest_cycles_per_second"}, {"fastest_cycles_per_second"}};
 
-/// `text` in quotes, on one line, cut after some 40 bytes.
-std::string in_quotes(std::string_view text) {
-    constexpr std::size_t most = 40;
-    if (text.size() <= most) return fmt::format("\"{}\"", one_line(text));
-    std::size_t end = most;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-    return fmt::format("\"{}…\"", one_line(text.substr(0, end)));
-}
+constexpr Key kScanKeys[] = {{"driver"},           {"pixel_clock_hz"}, {"latch_ns"},   {"min_on_ns"},  {"rise_ns"},
+                             {"fall_ns"},          {"row_groups"},     {"bit_planes"}, {"strings"},    {"bit_order"},
+                             {"planes_per_frame"}, {"register_order"}, {"serpentine"}, {"color_order"}};
 
-std::string found(const toml::node& node) {
-    if (const auto* text = node.as_string()) return fmt::format("the text {}", in_quotes(text->get()));
-    if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
-    if (const auto* number = node.as_floating_point()) return fmt::format("the number {}", number->get());
-    if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
-    if (node.is_table()) return "a table";
-    if (node.is_array()) return "a list";
-    return "a date or time";
-}
+constexpr Key kPowerKeys[] = {{"led_ma"}, {"max_duty"}, {"limit_ma"}};
 
-/// Levenshtein's distance: how many letters must be added, removed or changed to make `a` into `b`.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row[b.size()];
-}
-
-std::string_view nearest_key(std::string_view name, std::span<const Key> keys) {
-    return std::ranges::min_element(keys, {}, [name](const Key& key) { return edit_distance(name, key.name); })->name;
-}
-
-/// Reads one parsed file. Each step answers false once `error_` is set.
+/// Reads one parsed file.
 class Reader {
 public:
-    explicit Reader(std::string_view source) : source_(source) {}
+    explicit Reader(const TomlNode& root) : root_(root), top_(root, "", mistakes_) {}
 
-    Expected<DisplayDescription> read(const toml::table& root) {
-        root_ = &root;
-        if (!read_display() || !check_rules()) return tl::unexpected<Error>(std::move(error_));
-        return display_;
+    /// Mistakes by line; none: the display is whole.
+    std::vector<DisplayMistake> read() {
+        top_.refuse_unknown(kDisplayKeys);
+        if (read_kind()) read_display();
+        if (mistakes_.empty()) check_rules();
+        std::ranges::stable_sort(mistakes_, [](const DisplayMistake& a, const DisplayMistake& b) {
+            return a.missing != b.missing ? b.missing : a.line < b.line;
+        });
+        return std::move(mistakes_);
     }
+
+    DisplayFile take() { return std::move(display_); }
 
 private:
-    bool read_display() {
-        const toml::table& root = *root_;
-        if (!refuse_unknown(root, kDisplayKeys) || !read_kind() || !check_keys(root, kDisplayKeys)) return false;
-        return read_name() && read_summary() && read_format() && whole("slices", display::kSlices, display_.slices) &&
-               number("plane_pitch_mm", display_.plane_pitch_mm) &&
-               number("cycles_per_second", display_.cycles_per_second) && truth("clockwise", display_.clockwise) &&
-               read_panels();
-    }
-
-    bool read_panels() {
-        const toml::node& node = *root_->get("panel");
-        const toml::array* list = node.as_array();
-        if (list == nullptr) return wrong(node, "panel", "one [[panel]] table for each panel");
-        if (list->empty() || list->size() > kMaxPanels) {
-            return at(node, fmt::format("panel: found {} panels; allowed: 1 to {}", list->size(), kMaxPanels));
+    /// False: without it, nobody knows which keys are needed.
+    bool read_kind() {
+        if (top_.find("kind") == nullptr) {
+            top_.note_missing("kind");
+            return false;
         }
-        display_.panel_count = static_cast<std::uint32_t>(list->size());
-        for (std::size_t p = 0; p < list->size(); ++p) {
-            const toml::table* table = list->get(p)->as_table();
-            if (table == nullptr) return wrong(*list->get(p), "panel", "one [[panel]] table for each panel");
-            panel_ = p;
-            if (!read_panel(*table, display_.panels[p])) return false;
-        }
-        panel_.reset();
-        return true;
+        const std::size_t before = mistakes_.size();
+        top_.choice("kind", display::kKindNames, display_.kind);
+        return mistakes_.size() == before;
     }
 
-    bool read_panel(const toml::table& table, Panel& panel) {
-        return refuse_unknown(table, kPanelKeys) && check_keys(table, kPanelKeys) &&
-               whole("columns", display::kPixels, panel.columns) && whole("rows", display::kPixels, panel.rows) &&
-               number("column_pitch_mm", panel.column_pitch_mm) && number("row_pitch_mm", panel.row_pitch_mm) &&
-               number("shift_mm", panel.shift_mm) && number("offset_mm", panel.offset_mm) &&
-               number("lift_mm", panel.lift_mm) && number("angle_deg", panel.angle_deg);
+    void read_display() {
+        top_.check_keys(kDisplayKeys, display_.kind);
+        read_name();
+        top_.text("summary", display_.summary);
+        top_.choice("format", display::kFormatNames, display_.format);
+        display_.slices = 1;
+        top_.whole("slices", display::kSlices, display_.slices);
+        top_.number("cycles_per_second", display_.cycles_per_second);
+        top_.number("plane_pitch_mm", display_.plane_pitch_mm);
+        top_.number("sweep_deg", display_.sweep_deg);
+        top_.truth("clockwise", display_.clockwise);
+        top_.whole("blades", display::kBlades, display_.blades);
+        read_plane_heights();
+        read_points();
+        read_table("motion", kMotionKeys, &Reader::read_motion);
+        read_table("sync", kSyncKeys, &Reader::read_sync);
+        read_table("scan", kScanKeys, &Reader::read_scan);
+        read_table("power", kPowerKeys, &Reader::read_power);
+        read_panels();
+        read_assumed();
     }
 
-    bool read_name() {
+    void read_name() {
         std::string name;
-        if (!text("name", name)) return false;
-        if (name.empty() || name.size() >= DisplayName{}.text.size()) {
-            return at(*root_->get("name"), fmt::format("name: found {} bytes; allowed: 1 to 31", name.size()));
+        top_.text("name", name);
+        const TomlNode* node = top_.find("name");
+        if (node == nullptr || node->type != TomlNode::Type::Text) return;
+        if (node->text.empty() || node->text.size() >= DisplayName{}.text.size()) {
+            return top_.note("name", fmt::format("found {} bytes; allowed: 1 to 31", node->text.size()));
         }
         display_.name = DisplayName(name);
-        return true;
     }
 
-    bool read_summary() {
-        std::string summary;
-        return root_->get("summary") == nullptr || text("summary", summary);
+    void read_plane_heights() {
+        const bool uneven = top_.find("plane_heights_mm") != nullptr;
+        const bool even = top_.find("plane_pitch_mm") != nullptr;
+        if (display_.kind == DisplayKind::StackedPlanes && uneven == even) {
+            if (even) return top_.note("plane_heights_mm", "found beside plane_pitch_mm; allowed: one of the two");
+            top_.note_missing("plane_pitch_mm");
+        }
+        if (!uneven) return;
+        std::vector<double> heights;
+        top_.numbers("plane_heights_mm", heights);
+        display_.plane_heights_memory = std::make_shared<const std::vector<double>>(std::move(heights));
+        display_.plane_heights_mm = *display_.plane_heights_memory;
     }
 
-    bool read_kind() {
-        const toml::node* node = root_->get("kind");
-        if (node == nullptr) return missing(*root_, "kind");
-        const std::string kind = node->value_or(std::string());
-        for (const DisplayKind known : {DisplayKind::StackedPlanes, DisplayKind::RotatingPanel}) {
-            if (kind == display::kind_name(known)) {
-                display_.kind = known;
-                return true;
+    void read_points() {
+        if (top_.find("points") == nullptr) return;
+        std::vector<PointMm> points;
+        top_.points("points", points);
+        display_.points_memory = std::make_shared<const std::vector<PointMm>>(std::move(points));
+        display_.points = *display_.points_memory;
+    }
+
+    /// A table of its own, if the file has it; `fields` reads them.
+    void read_table(std::string_view name, std::span<const Key> keys, void (Reader::*fields)(TomlTable&)) {
+        const TomlNode* node = top_.find(name);
+        if (node == nullptr) return;
+        if (node->type != TomlNode::Type::Table) return top_.wrong(*node, name, fmt::format("a [{}] table", name));
+        const std::string place = fmt::format("{}.", name);
+        TomlTable table(*node, place, mistakes_);
+        table.refuse_unknown(keys);
+        table.check_keys(keys, display_.kind);
+        (this->*fields)(table);
+    }
+
+    void read_motion(TomlTable& table) {
+        Motion& motion = display_.motion;
+        table.number("stroke_mm", motion.stroke_mm);
+        table.choice("profile", display::kProfileNames, motion.profile);
+        table.truth("both_ways", motion.both_ways);
+        table.number("dead_zone", motion.dead_zone);
+        std::vector<double> heights;
+        table.numbers("table", heights);
+        if (heights.size() > kMaxMotionTable) {
+            return table.note("table",
+                              fmt::format("found {} heights; allowed: 2 to {}", heights.size(), kMaxMotionTable));
+        }
+        motion.table_size = static_cast<std::uint32_t>(heights.size());
+        std::ranges::copy(heights, motion.table.begin());
+    }
+
+    void read_sync(TomlTable& table) {
+        Sync& sync = display_.sync;
+        table.choice("index", display::kIndexNames, sync.index);
+        table.whole("index_pulses", display::kIndexPulses, sync.index_pulses);
+        table.number("index_phase", sync.index_phase);
+        table.number("slowest_cycles_per_second", sync.slowest_cycles_per_second);
+        table.number("fastest_cycles_per_second", sync.fastest_cycles_per_second);
+    }
+
+    void read_scan(TomlTable& table) {
+        Scan& scan = display_.scan;
+        table.choice("driver", display::kDriverNames, scan.driver);
+        table.whole("pixel_clock_hz", display::kClockHz, scan.pixel_clock_hz);
+        table.whole("latch_ns", display::kScanNs, scan.latch_ns);
+        table.whole("min_on_ns", display::kScanNs, scan.min_on_ns);
+        table.whole("rise_ns", display::kScanNs, scan.rise_ns);
+        table.whole("fall_ns", display::kScanNs, scan.fall_ns);
+        table.whole("row_groups", display::kRowGroups, scan.row_groups);
+        table.whole("bit_planes", display::kBitPlanes, scan.bit_planes);
+        table.whole("strings", display::kStrings, scan.strings);
+        table.whole("planes_per_frame", display::kPlanesPerFrame, scan.planes_per_frame);
+        table.choice("bit_order", display::kBitOrderNames, scan.msb_first);
+        table.choice("register_order", display::kRegisterOrderNames, scan.layers_first);
+        table.truth("serpentine", scan.serpentine);
+        std::string order(scan.color_order.begin(), scan.color_order.end());
+        table.text("color_order", order);
+        if (order.size() != scan.color_order.size()) {
+            return table.note("color_order",
+                              fmt::format("found {}; allowed: each of r, g and b once", display::in_quotes(order)));
+        }
+        std::ranges::copy(order, scan.color_order.begin());
+    }
+
+    void read_power(TomlTable& table) {
+        table.number("led_ma", display_.power.led_ma);
+        table.number("max_duty", display_.power.max_duty);
+        table.number("limit_ma", display_.power.limit_ma);
+    }
+
+    void read_panels() {
+        const TomlNode* list = top_.find("panel");
+        if (list == nullptr) return;
+        constexpr std::string_view allowed = "one [[panel]] table for each panel";
+        if (list->type != TomlNode::Type::List) return top_.wrong(*list, "panel", allowed);
+        for (const TomlNode& panel : list->items) {
+            if (panel.type != TomlNode::Type::Table) return top_.wrong(panel, "panel", allowed);
+        }
+        if (list->items.empty() || list->items.size() > kMaxPanels) {
+            return top_.note("panel", fmt::format("found {} panels; allowed: 1 to {}", list->items.size(), kMaxPanels));
+        }
+        display_.panel_count = static_cast<std::uint32_t>(list->items.size());
+        for (std::size_t p = 0; p < list->items.size(); ++p) read_panel(list->items[p], p);
+    }
+
+    void read_panel(const TomlNode& node, std::size_t index) {
+        Panel& panel = display_.panels[index];
+        const std::string place = fmt::format("panel {}: ", index + 1);
+        TomlTable table(node, place, mistakes_);
+        table.refuse_unknown(kPanelKeys);
+        table.check_keys(kPanelKeys, display_.kind);
+        table.whole("columns", display::kPixels, panel.columns);
+        table.whole("rows", display::kPixels, panel.rows);
+        table.number("column_pitch_mm", panel.column_pitch_mm);
+        table.number("row_pitch_mm", panel.row_pitch_mm);
+        table.number("shift_mm", panel.shift_mm);
+        table.number("offset_mm", panel.offset_mm);
+        table.number("lift_mm", panel.lift_mm);
+        table.number("angle_deg", panel.angle_deg);
+        table.number("tilt_deg", panel.tilt_deg);
+        table.number("skew_mm", panel.skew_mm);
+        table.truth("mirrored", panel.mirrored);
+        table.whole("turned", display::kQuarterTurns, panel.turned);
+        table.whole("connector", display::kConnectors, panel.connector);
+        table.whole("chain_position", display::kConnectors, panel.chain_position);
+        if (node.find("connector") != nullptr || node.find("chain_position") != nullptr) wiring_given_ = true;
+    }
+
+    void read_assumed() {
+        top_.texts("assumed", display_.assumed);
+        const TomlNode* list = top_.find("assumed");
+        for (std::size_t i = 0; i < display_.assumed.size(); ++i) {
+            const TomlNode* value = find_first(display_.assumed[i]);
+            const std::size_t line = list->items[i].line;
+            if (value == nullptr) {
+                mistakes_.push_back({line, fmt::format("assumed: found {}, which is no key of this file",
+                                                       display::in_quotes(display_.assumed[i]))});
+            } else if (value == root_.find(display_.assumed[i]) && is_table(*value)) {
+                mistakes_.push_back({line, fmt::format("assumed: found {}, which is a table; name its keys, as in"
+                                                       " \"{}.{}\"",
+                                                       display::in_quotes(display_.assumed[i]), display_.assumed[i],
+                                                       display_.assumed[i] == "panel" ? "rows" : "…")});
             }
         }
-        return wrong(*node, "kind", "\"stacked-planes\" or \"rotating-panel\"");
     }
 
-    bool read_format() {
-        const toml::node& node = *root_->get("format");
-        const std::string format = node.value_or(std::string());
-        for (const PixelFormat known :
-             {PixelFormat::Mono1, PixelFormat::Rgb111, PixelFormat::Rgb332, PixelFormat::Rgb565, PixelFormat::Rgb888}) {
-            if (format == to_string(known)) {
-                display_.format = known;
-                return true;
-            }
+    static bool is_table(const TomlNode& node) {
+        return node.type == TomlNode::Type::Table || (node.type == TomlNode::Type::List && !node.items.empty() &&
+                                                      node.items.front().type == TomlNode::Type::Table);
+    }
+
+    /// The value of "key" or "table.key"; of "panel.key" on the first panel that has it. nullptr: none.
+    const TomlNode* find_first(std::string_view path) const {
+        const std::size_t dot = path.find('.');
+        const TomlNode* node = root_.find(path.substr(0, dot));
+        if (node == nullptr || dot == path.npos) return node;
+        const std::string_view key = path.substr(dot + 1);
+        if (node->type == TomlNode::Type::Table) return node->find(key);
+        if (path.substr(0, dot) != "panel") return nullptr;
+        for (const TomlNode& panel : node->items) {
+            if (const TomlNode* value = panel.find(key)) return value;
         }
-        return wrong(node, "format", "\"mono1\", \"rgb111\", \"rgb332\", \"rgb565\" or \"rgb888\"");
+        return nullptr;
     }
 
-    // Values of the table in hand: panel panel_'s if set, else the display's own. A key that is absent keeps its
-    // default.
-
-    const toml::node* find(std::string_view key) const { return table_of(panel_).get(key); }
-
-    bool text(std::string_view key, std::string& value) {
-        const toml::node& node = *find(key);
-        if (!node.is_string()) return wrong(node, key, "a text in quotes");
-        value = node.as_string()->get();
-        if (std::ranges::any_of(value, is_control))
-            return wrong(node, key, "a text of one line, without control characters");
-        return true;
-    }
-
-    bool truth(std::string_view key, bool& value) {
-        const toml::node* node = find(key);
-        if (node == nullptr) return true;
-        if (!node->is_boolean()) return wrong(*node, key, "true or false");
-        value = node->as_boolean()->get();
-        return true;
-    }
-
-    /// The range is checked here, before `value`'s type cuts the number.
-    template <class Integer>
-    bool whole(std::string_view key, const display::Range& range, Integer& value) {
-        const toml::node& node = *find(key);
-        if (!node.is_integer()) {
-            return wrong(node, key, fmt::format("a whole number from {} to {}", range.lowest, range.highest));
+    void check_rules() {
+        const bool wiring_given = wiring_given_ || display::gives_wiring(display_);
+        for (const display::Violation& violation : display::find_violations(display_, wiring_given)) {
+            mistakes_.push_back({line_of(violation), display::in_words(violation, ": ")});
         }
-        const std::int64_t number = node.as_integer()->get();
-        if (const auto message = display::check(static_cast<double>(number), range)) {
-            return at(node, fmt::format("{}: {}", key, *message));
+    }
+
+    /// Of the key, or of the table that lacks it.
+    std::size_t line_of(const display::Violation& violation) const {
+        if (violation.panel) {
+            const TomlNode& panel = root_.find("panel")->items[*violation.panel];
+            const TomlNode* node = panel.find(violation.key);
+            return node == nullptr ? panel.line : node->line;
         }
-        value = static_cast<Integer>(number);
-        return true;
+        const TomlNode* node = find_first(violation.key);
+        if (node == nullptr) node = root_.find(violation.key.substr(0, violation.key.find('.')));
+        if (node == nullptr) return root_.line;
+        return violation.item ? node->items[*violation.item].line : node->line;
     }
 
-    bool number(std::string_view key, double& value) {
-        const toml::node* node = find(key);
-        if (node == nullptr) return true;
-        if (!node->is_number()) return wrong(*node, key, "a number");
-        value = node->is_integer() ? static_cast<double>(node->as_integer()->get()) : node->as_floating_point()->get();
-        return true;
-    }
-
-    // What is wrong, and where.
-
-    bool refuse_unknown(const toml::table& table, std::span<const Key> keys) {
-        for (const auto& [name, node] : table) {
-            if (std::ranges::find(keys, name.str(), &Key::name) != keys.end()) continue;
-            std::string known;
-            for (const Key& key : keys) known += fmt::format("{}{}", known.empty() ? "" : ", ", key.name);
-            return at(node, fmt::format("unknown key {}; the nearest one is \"{}\" of {}", in_quotes(name.str()),
-                                        nearest_key(std::string_view(name.str()).substr(0, 64), keys), known));
-        }
-        return true;
-    }
-
-    bool check_keys(const toml::table& table, std::span<const Key> keys) {
-        for (const Key& key : keys) {
-            const toml::node* node = table.get(key.name);
-            const bool applies = !key.only_for || *key.only_for == display_.kind;
-            if (node != nullptr && !applies) {
-                return at(*node, fmt::format("{}: does not apply to kind \"{}\", only to \"{}\"; remove it", key.name,
-                                             display::kind_name(display_.kind), display::kind_name(*key.only_for)));
-            }
-            if (node == nullptr && applies && key.required) return missing(table, key.name);
-        }
-        return true;
-    }
-
-    bool check_rules() {
-        const auto bad = display::find_violation(display_);
-        if (!bad) return true;
-        panel_ = bad->panel;
-        const toml::node* node = find(bad->key);
-        return at(node != nullptr ? *node : table_of(panel_), fmt::format("{}: {}", bad->key, bad->message));
-    }
-
-    bool missing(const toml::table& table, std::string_view key) {
-        const std::string_view header = key == "panel" ? "; add a [[panel]] table" : "";
-        return at(table, fmt::format("the required key \"{}\" is missing{}", key, header));
-    }
-
-    bool wrong(const toml::node& node, std::string_view key, std::string_view allowed) {
-        return at(node, fmt::format("{}: found {}; allowed: {}", key, found(node), allowed));
-    }
-
-    bool at(const toml::node& node, std::string_view message) {
-        const std::string panel = panel_ ? fmt::format("panel {}: ", *panel_ + 1) : "";
-        error_.message = fmt::format("{}: line {}: {}{}", source_, node.source().begin.line, panel, message);
-        return false;
-    }
-
-    const toml::table& table_of(std::optional<std::size_t> panel) const {
-        return panel ? *root_->get("panel")->as_array()->get(*panel)->as_table() : *root_;
-    }
-
-    std::string_view source_;
-    const toml::table* root_ = nullptr;
-    DisplayDescription display_;
-    std::optional<std::size_t> panel_;  ///< The panel that is being read.
-    Error error_;
+    const TomlNode& root_;
+    std::vector<DisplayMistake> mistakes_;
+    TomlTable top_;
+    DisplayFile display_;
+    bool wiring_given_ = false;
 };
-
-Expected<std::string> read_file(const std::string& path) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        return fail(fmt::format("{}: is a directory; a display file (.toml) was expected", path));
-    }
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-    if (file == nullptr) {
-        return fail(fmt::format("{}: cannot open the display file: {}", path, std::generic_category().message(errno)));
-    }
-    std::string text(kMaxFileBytes + 1, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), file.get()));
-    if (std::ferror(file.get()) != 0) {
-        return fail(fmt::format("{}: cannot read the display file: {}", path, std::generic_category().message(errno)));
-    }
-    if (text.size() > kMaxFileBytes) {
-        return fail(fmt::format("{}: longer than {} bytes, which no display file is", path, kMaxFileBytes));
-    }
-    return text;
-}
 
 }  // namespace
 
-Expected<DisplayDescription> parse_display(std::string_view toml, std::string_view source) {
-    if (const auto stray = display::find_stray(toml)) {
-        return fail(fmt::format("{}: line {}: not valid here: {}", source, stray->line, stray->message));
-    }
-    const toml::parse_result result = toml::parse(toml, source);
-    if (!result) {
-        return fail(fmt::format("{}: line {}: not valid TOML: {}", source, result.error().source().begin.line,
-                                one_line(result.error().description())));
-    }
-    return Reader(source).read(result.table());
+std::vector<DisplayMistake> find_mistakes(std::string_view toml) {
+    const auto root = display::parse_toml(toml);
+    if (!root) return {root.error()};
+    return Reader(*root).read();
 }
 
-Expected<DisplayDescription> load_display(const std::string& name_or_path) {
-    if (name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".toml")) {
-        const auto text = read_file(name_or_path);
-        if (!text) return tl::unexpected<Error>(text.error());
-        return parse_display(*text, name_or_path);
-    }
-    std::string names;
-    for (const Preset& preset : presets()) {
-        if (preset.name == name_or_path) return parse_display(preset.text, preset.name);
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", preset.name);
-    }
-    return fail(fmt::format("unknown display \"{}\"; presets: {}; or give the path of a display file, ending in .toml",
-                            one_line(name_or_path), names));
+Expected<DisplayFile> parse_display(std::string_view toml, std::string_view source) {
+    const auto refuse = [source](const DisplayMistake& mistake) {
+        return fail(fmt::format("{}: line {}: {}", source, mistake.line, mistake.message));
+    };
+    const auto root = display::parse_toml(toml);
+    if (!root) return refuse(root.error());
+    Reader reader(*root);
+    if (const auto mistakes = reader.read(); !mistakes.empty()) return refuse(mistakes.front());
+    return reader.take();
 }
 
 }  // namespace xorvox

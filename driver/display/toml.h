@@ -1,7 +1,9 @@
-// Display files: a DisplayDescription from TOML, and the presets that are built in. driver/display/presets/*.toml show
-// the keys; docs/displays.md explains them.
+// Display files: a DisplayDescription from TOML, and the presets that are built in. docs/displays.md explains the keys;
+// driver/display/presets/*.toml show them. Every function may be called from any number of threads.
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,16 +23,46 @@ struct Preset {
 /// Every preset, by name. Static storage.
 const std::vector<Preset>& presets();
 
+/// A description with what else its file says. Owns what `points` and `plane_heights_mm` borrow, together with every
+/// copy of it: a DisplayDescription that is copied from it must not outlive them all.
+struct DisplayFile : DisplayDescription {
+    std::string summary;               ///< One line; may be empty.
+    std::vector<std::string> assumed;  ///< Keys whose values have no source: "slices", "panel.rows", "scan.latch_ns".
+
+    std::shared_ptr<const std::vector<PointMm>> points_memory;
+    std::shared_ptr<const std::vector<double>> plane_heights_memory;
+};
+
+/// A mistake in a display file.
+struct DisplayMistake {
+    std::size_t line;      ///< From 1.
+    std::string message;   ///< Key, what was found and what is allowed; one line, without file and line.
+    bool missing = false;  ///< Something that is not there.
+};
+
 /// Reads and validates a description. `source` names the text in messages ("file.toml"), which give line, key, what was
-/// found and what is allowed. Unknown keys are errors, with the nearest known one.
-Expected<DisplayDescription> parse_display(std::string_view toml, std::string_view source);
+/// found and what is allowed: the first of find_mistakes(). Unknown keys, and keys that do not apply to the display's
+/// kind, are errors.
+Expected<DisplayFile> parse_display(std::string_view toml, std::string_view source);
 
-/// A preset's name, or the path of a TOML file (anything with a '/' or ending in .toml). The message for an unknown
-/// name lists the presets.
-Expected<DisplayDescription> load_display(const std::string& name_or_path);
+/// Every mistake that one reading finds, by line, what is missing last; none if parse_display() takes `toml`. Whether
+/// the numbers agree with each other is looked at once each of them is in order.
+std::vector<DisplayMistake> find_mistakes(std::string_view toml);
 
-/// What is wrong with a description that did not come from TOML; Ok if nothing. Freestanding in spirit: no file
-/// involved.
+/// The text of a display file, and what messages call it.
+struct DisplaySource {
+    std::string name;
+    std::string text;
+};
+/// Finds a preset by its name, or reads the TOML file at a path: anything with a '/' or ending in .toml. A file has at
+/// most 1 MiB. The message for an unknown name lists the presets.
+Expected<DisplaySource> find_display(const std::string& name_or_path);
+
+/// find_display() and parse_display().
+Expected<DisplayFile> load_display(const std::string& name_or_path);
+
+/// What is wrong with a description that did not come from TOML; Ok if nothing: all that a display file is checked for.
+/// No file involved.
 Expected<void> validate_display(const DisplayDescription& display);
 
 }  // namespace xorvox

@@ -40,6 +40,7 @@ public:
     void evaluate(std::span<const glm::vec3>, std::span<glm::vec3> colors) const override {
         std::ranges::fill(colors, color_);
     }
+    std::optional<glm::vec3> constant() const override { return color_; }
 
 private:
     glm::vec3 color_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -17,14 +18,15 @@ public:
     virtual ~ColorField() = default;
     /// `points`: 0 … 1 along x, y and z of the lattice's box. `colors` has as many entries. Any number of threads.
     virtual void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const = 0;
+    /// The colour that it has everywhere, if it has one: then it need not be asked point by point.
+    virtual std::optional<glm::vec3> constant() const { return std::nullopt; }
 };
 
 /// What `--color` takes. The message for anything else lists what is allowed. COLOR is a name or #rrggbb (sRGB).
 ///
 ///   constant:COLOR          one colour
 ///   gradient                azure, turquoise, green and gold, from bottom to top, in steps that keep this order in
-///   every
-///                           pixel format
+///                           every pixel format
 ///   gradient:COLOR,COLOR    from bottom to top, mixed evenly to the eye (Oklab)
 ///   noise, noise:SCALE      Perlin's noise through a palette; SCALE cells along each side of the box, 0.1 … 256,
 ///   default 4

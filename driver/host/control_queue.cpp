@@ -12,10 +12,10 @@ bool shows(const DeviceStatus& status, const Control& control) {
     switch (control.operation) {
         case ControlOperation::Brightness: return status.brightness == control.value;
         // A fault keeps the display dark, whatever it was told.
-        case ControlOperation::Blank: return status.fault == Fault::None && status.blank == control.value;
+        case ControlOperation::Blank: return status.faults == 0 && status.blank == control.value;
         case ControlOperation::SilencePolicy: return static_cast<std::uint32_t>(status.silence_action) == control.value;
         case ControlOperation::Watchdog: return status.watchdog_ms == control.value;
-        case ControlOperation::ClearFault: return status.fault == Fault::None;
+        case ControlOperation::ClearFault: return (status.faults & fault_bit(static_cast<Fault>(control.value))) == 0;
         case ControlOperation::Status: return true;
     }
     return true;
@@ -33,23 +33,20 @@ bool is_valid(const Control& control) {
         case ControlOperation::Blank:
         case ControlOperation::SilencePolicy: return control.value <= 1;
         case ControlOperation::Watchdog: return true;
-        case ControlOperation::ClearFault:
+        case ControlOperation::ClearFault: return control.value >= 1 && control.value <= kHighestFault;
         case ControlOperation::Status: return control.value == 0;
     }
     return false;
 }
 
-void ControlQueue::heed(Fault fault) {
-    if (fault == Fault::SilentHost) {
-        if (std::any_of(waiting_.begin(), waiting_.end(), is(ControlOperation::ClearFault))) return;
-        waiting_.push_back({.control = {.operation = ControlOperation::ClearFault}, .automatic = true});
-        return;
-    }
-    const auto found =
-        std::find_if(waiting_.begin(), waiting_.end(), [](const auto& entry) { return entry.automatic; });
-    if (found == waiting_.end()) return;
-    if (found == waiting_.begin()) in_flight_ = false;
-    waiting_.erase(found);
+void ControlQueue::heed(std::uint32_t faults) {
+    if ((faults & fault_bit(Fault::SilentHost)) == 0) return;
+    constexpr auto kSilentHost = static_cast<std::uint32_t>(Fault::SilentHost);
+    const auto clears = [](const Waiting& entry) {
+        return entry.control.operation == ControlOperation::ClearFault && entry.control.value == kSilentHost;
+    };
+    if (std::any_of(waiting_.begin(), waiting_.end(), clears)) return;
+    push({.operation = ControlOperation::ClearFault, .value = kSilentHost});
 }
 
 const Control& ControlQueue::send(std::uint64_t now_ns) {
@@ -69,7 +66,7 @@ void ControlQueue::confirmed_by(const DeviceStatus& status) {
     if (!in_flight_) return;
     if (shows(status, waiting_.front().control)) {
         pop();
-    } else if (waiting_.front().control.operation == ControlOperation::Blank && status.fault != Fault::None) {
+    } else if (waiting_.front().control.operation == ControlOperation::Blank && status.faults != 0) {
         let_clear_fault_pass();
     }
 }

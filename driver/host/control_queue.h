@@ -22,11 +22,11 @@ public:
     bool has_next() const { return !waiting_.empty() && !in_flight_; }
 
     void push(const wire::Control& control) { waiting_.push_back({.control = control}); }
-    /// Clears the fault of a silent host and no other: queues a ClearFault for that one, unless one waits already, and
-    /// takes it back when the device has another fault or none.
-    void heed(wire::Fault fault);
+    /// Queues the clearing of a silent host's fault, and of no other, where that is among `faults` (wire::fault_bit)
+    /// and it does not wait already.
+    void heed(std::uint32_t faults);
 
-    /// The control to be sent now; it stays until it is confirmed, refused, taken back or given up by watch().
+    /// The control to be sent now; it stays until it is confirmed, refused or given up by watch().
     const wire::Control& send(std::uint64_t now_ns);
     /// The control to be sent now, where nobody will answer.
     wire::Control take();
@@ -43,7 +43,6 @@ public:
 private:
     struct Waiting {
         wire::Control control;
-        bool automatic = false;  ///< Nobody asked for it.
         std::uint32_t attempts = 0;
     };
 

@@ -17,9 +17,13 @@ struct Channels {
 
 constexpr Channels channels(PixelFormat format) {
     switch (format) {
-        case PixelFormat::Mono1: break;  // One bit for all three: see quantize.
+        // One level for all three: see quantize.
+        case PixelFormat::Mono1:
+        case PixelFormat::Mono2:
+        case PixelFormat::Mono4: break;
         case PixelFormat::Rgb111: return {{0, 1}, {1, 1}, {2, 1}};
         case PixelFormat::Rgb332: return {{5, 3}, {2, 3}, {0, 2}};
+        case PixelFormat::Rgb555: return {{10, 5}, {5, 5}, {0, 5}};
         case PixelFormat::Rgb565: return {{11, 5}, {5, 6}, {0, 5}};
         case PixelFormat::Rgb888: return {{0, 8}, {8, 8}, {16, 8}};
     }
@@ -37,10 +41,18 @@ bool is_black(const glm::vec3& color) {
     return !(color.r > 0.0f || color.g > 0.0f || color.b > 0.0f);
 }
 
+/// Levels of one LED: those of the colour's luminance, by the weights of sRGB's primaries (IEC 61966-2-1).
+std::uint32_t gray_level(const glm::vec3& linear, std::uint32_t bits) {
+    const auto clipped = [](float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; };
+    const float gray = 0.2126f * clipped(linear.r) + 0.7152f * clipped(linear.g) + 0.0722f * clipped(linear.b);
+    return level(gray, {0, bits});
+}
+
 }  // namespace
 
 std::uint32_t quantize(glm::vec3 linear, PixelFormat format) {
     if (format == PixelFormat::Mono1) return is_black(linear) ? 0 : 1;
+    if (format == PixelFormat::Mono2 || format == PixelFormat::Mono4) return gray_level(linear, bits_per_pixel(format));
     const auto [red, green, blue] = channels(format);
     return level(linear.r, red) | level(linear.g, green) | level(linear.b, blue);
 }
@@ -48,6 +60,7 @@ std::uint32_t quantize(glm::vec3 linear, PixelFormat format) {
 std::uint32_t visible_code(glm::vec3 linear, PixelFormat format) {
     const std::uint32_t code = quantize(linear, format);
     if (code != 0 || is_black(linear)) return code;
+    if (bits_per_pixel(format) == bits_per_channel(format)) return 1;  // one LED
     const auto [red, green, blue] = channels(format);
     // A NaN is dark here, too: it compares false.
     float strongest = 0.0f;

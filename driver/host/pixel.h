@@ -12,7 +12,7 @@
 namespace xorvox::host {
 
 /// The code of a linear colour in `format`, in the low bits: each channel clipped to 0 … 1 and rounded to nearest.
-/// Mono1 has no levels: it is lit unless the colour is black.
+/// Mono1 has no levels: it is lit unless the colour is black. Mono2 and Mono4 show the colour's luminance.
 std::uint32_t quantize(glm::vec3 linear, PixelFormat format);
 
 /// As quantize, but never 0 unless the colour is black: of a colour that is too faint for the format, the strongest

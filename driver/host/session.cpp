@@ -93,20 +93,25 @@ void Session::Impl::fail_no_answer() {
 
 /// Begins with a device of these capabilities.
 void Session::Impl::adopt(const Hello& hello) {
+    const bool other_clock = statistics.hellos > 0 && hello.boot_nonce != device.boot_nonce;
     device = hello;
     state = SessionState::Ready;
     device_time_ns = 0;
     set_device(hello.free_pages, hello.device_time_ns);
+    clock.forget();
+    if (info.two_way) clock.observe(hello.host_time_ns, now_ns, hello.device_time_ns);
     device_status.fault = hello.fault;
+    // A later minor version may have faults that are not in the mask.
+    device_status.faults = static_cast<unsigned>(hello.fault) < 32 ? fault_bit(hello.fault) : 0;
     has_status = false;
-    ask_status_ns = phase_since_ns = nothing_overdue_ns = now_ns;
+    ask_status_ns = ask_clock_ns = phase_since_ns = nothing_overdue_ns = now_ns;
     const bool lz4 = options.compress && (hello.codecs & 1u << static_cast<unsigned>(Codec::Lz4)) != 0;
-    transfer.begin_with({std::min(hello.max_packet_bytes, info.max_packet_bytes), lz4});
+    transfer.begin_with({std::min(hello.max_packet_bytes, info.max_packet_bytes), lz4}, other_clock);
     ++statistics.hellos;
     silent_timeouts = 0;
     asked = false;
     controls.begin_again();
-    controls.heed(hello.fault);
+    controls.heed(device_status.faults);
 }
 
 /// The device fell silent: asks who is there.
@@ -184,7 +189,8 @@ bool Session::Impl::understood(const Header& header, std::span<const std::byte> 
         case PacketType::Acknowledge: return act_on<Acknowledge>(payload);
         case PacketType::Nack: return act_on<Nack>(payload);
         case PacketType::DeviceStatus: return act_on<DeviceStatus>(payload);
-        default: return true;  // A pong, or a later minor version's.
+        case PacketType::Pong: return act_on<Pong>(payload);
+        default: return true;  // A later minor version's.
     }
 }
 
@@ -215,7 +221,9 @@ void Session::Impl::on(const Acknowledge& message) {
     if (message.stage != AckStage::Accepted && message.stage != AckStage::Presented) return;
     // A Presented whose Accepted was lost says both. A later attempt of the same frame is not needed any more.
     if (transfer.accept(message)) out_bytes = 0;
-    if (message.stage == AckStage::Presented) set_presented(message.frame, message.page_crc);
+    if (message.stage == AckStage::Presented) {
+        set_presented(message.frame, message.page_crc, message.device_time_ns);
+    }
 }
 
 void Session::Impl::on(const Nack& message) {
@@ -237,9 +245,13 @@ void Session::Impl::on(const DeviceStatus& message) {
     device_status = message;
     if (!has_status) ask_status_ns = now_ns + timeout_ns;
     has_status = true;
-    if (message.has_frame != 0) set_presented(message.shown_frame, message.shown_crc);
-    controls.heed(message.fault);
+    if (message.has_frame != 0) set_presented(message.shown_frame, message.shown_crc, 0);
+    controls.heed(message.faults);
     controls.confirmed_by(message);
+}
+
+void Session::Impl::on(const Pong& message) {
+    clock.observe(message.host_time_ns, now_ns, message.device_time_ns);
 }
 
 void Session::Impl::set_device(std::uint8_t its_free_pages, std::uint64_t its_time_ns) {
@@ -247,8 +259,8 @@ void Session::Impl::set_device(std::uint8_t its_free_pages, std::uint64_t its_ti
     device_time_ns = std::max(device_time_ns, its_time_ns);
 }
 
-void Session::Impl::set_presented(std::uint32_t frame, std::uint32_t page_crc) {
-    if (transfer.presented(frame, page_crc)) nothing_overdue_ns = now_ns;
+void Session::Impl::set_presented(std::uint32_t frame, std::uint32_t page_crc, std::uint64_t its_time_ns) {
+    if (transfer.presented(frame, page_crc, its_time_ns)) nothing_overdue_ns = now_ns;
 }
 
 Session::Session(Link link, const DisplayDescription& display, const SessionOptions& options)
@@ -269,8 +281,21 @@ Status Session::control(ControlOperation operation, std::uint32_t value) {
     return impl_->control({.operation = operation, .value = value});
 }
 
+void Session::follow_clock(std::uint64_t every_ns) {
+    impl_->clock_every_ns = every_ns;
+}
+const ClockOffset& Session::clock() const {
+    return impl_->clock;
+}
+bool Session::next_fate(FrameFate& fate) {
+    return impl_->transfer.next_fate(fate);
+}
+
 SessionState Session::state() const {
     return impl_->state;
+}
+bool Session::two_way() const {
+    return impl_->info.two_way;
 }
 bool Session::idle() const {
     return impl_->transfer.phase() == Impl::Phase::None && impl_->controls.empty() && impl_->out_bytes == 0;

@@ -9,6 +9,9 @@
 //                 ▲                          │
 //                 └── refused, or no answer ─┘  again, with a new id, as a keyframe, a bounded number of times
 //
+// What becomes of an accepted frame, next_fate() tells: presented, and since when, or given up for a later one. For a
+// steady rate over it, see driver/host/stream.h.
+//
 // It does nothing on its own: poll() sends, receives and watches the clock, which the caller injects. One thread.
 #pragma once
 
@@ -18,6 +21,7 @@
 #include <string>
 
 #include "driver/display/description.h"
+#include "driver/host/clock_offset.h"
 #include "driver/wire/messages.h"
 #include "transport/link.h"
 #include "voxelizer/error.h"
@@ -51,6 +55,13 @@ struct SessionStatistics {
     std::uint64_t bytes_sent = 0;       ///< Of all packets that the link took.
 };
 
+/// What became of a frame that the device accepted.
+struct FrameFate {
+    std::uint64_t frame = 0;  ///< The how-manieth that was submitted: SessionStatistics::frames_submitted after it was.
+    bool presented = false;   ///< False: it will never be shown; a later one was instead, or the device forgot it.
+    std::uint64_t device_time_ns = 0;  ///< Since when it is shown; 0: the message that said so was lost.
+};
+
 class Session {
 public:
     /// `display` is what frames are made for and is copied; the device's geometry digest must equal its. On a link with
@@ -77,7 +88,17 @@ public:
     /// range; WouldBlock when many wait; Closed when Failed.
     Status control(wire::ControlOperation operation, std::uint32_t value);
 
+    /// The oldest fate that was not asked for yet; false when there is none. Each frame that the device accepts has one
+    /// in the end, in the order in which they become known. The last 64 are kept.
+    bool next_fate(FrameFate& fate);
+
+    /// From now on asks the device for its clock this often, also while frames are on their way; 0: not at all.
+    void follow_clock(std::uint64_t every_ns);
+    /// The device's clock, from the hello and every answer since; it begins anew with each session with the device.
+    const ClockOffset& clock() const;
+
     SessionState state() const;
+    bool two_way() const;
     /// True when every submitted frame was accepted and every control confirmed (two-way) or handed to the link
     /// (one-way).
     bool idle() const;
@@ -85,8 +106,9 @@ public:
     std::uint32_t events() const;
     const Error& error() const;         ///< Valid when Failed.
     const wire::Hello& device() const;  ///< Valid from Ready on; its fault is that of the beginning.
-    /// The last one received; before the first, only `fault` is valid, from Ready on: it is hello's. Fault::Scan stays
-    /// until somebody judges it and calls control(ClearFault, 0): tell your user.
+    /// The last one received; before the first, only `fault` and `faults` are valid, from Ready on: they are hello's.
+    /// All faults but a silent host's stay until somebody judges them and calls control(ClearFault, number of the
+    /// fault): tell your user (driver/host/faults.h).
     const wire::DeviceStatus& device_status() const;
     std::uint32_t last_accepted() const;   ///< Frame id; 0: none.
     std::uint32_t last_presented() const;  ///< Frame id; 0: none.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "driver/host/clock_offset.h"
 #include "driver/host/control_queue.h"
 #include "driver/host/session.h"
 #include "driver/host/transfer.h"
@@ -41,8 +42,9 @@ struct Session::Impl {
     void on(const wire::Acknowledge& message);
     void on(const wire::Nack& message);
     void on(const wire::DeviceStatus& message);
+    void on(const wire::Pong& message);
     void set_device(std::uint8_t its_free_pages, std::uint64_t its_time_ns);
-    void set_presented(std::uint32_t frame, std::uint32_t page_crc);
+    void set_presented(std::uint32_t frame, std::uint32_t page_crc, std::uint64_t its_time_ns);
 
     bool passed(std::uint64_t since_ns, std::uint64_t timeouts) const;
     void watch_clock();
@@ -90,6 +92,9 @@ struct Session::Impl {
     std::uint64_t ask_status_ns = 0;  ///< When to ask for one, if it is wanted.
     std::uint8_t free_pages = 0;
     std::uint64_t device_time_ns = 0;  ///< The latest that the device told.
+    ClockOffset clock;
+    std::uint64_t clock_every_ns = 0;  ///< 0: nobody wants to know.
+    std::uint64_t ask_clock_ns = 0;    ///< When to ask for it, if it is wanted.
 
     Transfer transfer{statistics};
     std::uint64_t phase_since_ns = 0;      ///< When the frame was queued or sent.

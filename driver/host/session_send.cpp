@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "driver/host/faults.h"
 #include "driver/host/session_impl.h"
 
 namespace xorvox::host {
@@ -75,7 +76,7 @@ void Session::Impl::watch_presentation() {
     fail_with(Status::Closed,
               fmt::format("the display on the link {} accepted a frame but has not shown it for {:.3g} s; {}",
                           info.name, static_cast<double>(limit_ns) / 1e9,
-                          device_status.fault == Fault::Scan ? "it reports a fault of its scanner" : "does it turn?"));
+                          device_status.fault > Fault::SilentHost ? describe(device_status.fault) : "does it turn?"));
 }
 
 /// What only a DeviceStatus tells: the watchdog, which a hello does not name; a page that became free; a frame that is
@@ -127,6 +128,10 @@ bool Session::Impl::compose() {
     if (info.two_way && wants_status() && now_ns >= ask_status_ns) {
         ask_status_ns = now_ns + timeout_ns;
         return compose_message(Control{.operation = ControlOperation::Status});
+    }
+    if (info.two_way && clock_every_ns > 0 && now_ns >= ask_clock_ns) {
+        ask_clock_ns = now_ns + clock_every_ns;
+        return compose_message(Ping{.host_time_ns = now_ns});
     }
     if (controls.has_next()) return compose_message(info.two_way ? controls.send(now_ns) : controls.take());
     if (transfer.phase() == Phase::Queued && (free_pages > 0 || !info.two_way)) {

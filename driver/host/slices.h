@@ -9,38 +9,41 @@
 #include "driver/display/description.h"
 #include "driver/display/lattice.h"
 #include "driver/host/color.h"
-#include "driver/host/pixel.h"
+#include "driver/host/slice_map.h"
+#include "driver/host/wire_order.h"
 #include "voxelizer/bit_volume.h"
 
 namespace xorvox::host {
 
-/// Turns volumes on a display's lattice into frames. Makes its slice map once; then no allocation per frame.
+/// Turns volumes on a display's lattice into frames. Makes its tables once; then no allocation per frame.
 class FramePainter {
 public:
-    /// `display` must be valid (validate_display). Throws std::bad_alloc.
-    explicit FramePainter(const DisplayDescription& display);
+    /// `display` must be valid (validate_display); what it borrows must outlive the painter. Throws std::bad_alloc.
+    explicit FramePainter(const DisplayDescription& display, LightMode mode = LightMode::Bright);
+    FramePainter(const FramePainter&) = delete;
+    FramePainter& operator=(const FramePainter&) = delete;
 
     const DisplayLattice& lattice() const { return lattice_; }
 
-    /// Writes frame_bytes(display) to `frame`: every set voxel lit in its colour, every other pixel and all padding
-    /// dark. A set voxel whose colour is too faint for the pixel format is lit with the faintest codes of its strong
-    /// channels (visible_code); only black is dark. `volume` has the shape of lattice(). `color` is asked only at set
-    /// voxels, at points 0 … 1 along the box of extent(display). Ok or InvalidArgument. Several threads may paint
-    /// different frames at once.
+    /// Writes frame_bytes(display) to `frame`: every set voxel that the mode allows lit in its colour, every other
+    /// pixel and all padding dark. A set voxel whose colour is too faint for the pixel format is lit with the faintest
+    /// codes of its strong channels (visible_code); only black is dark. `volume` has the shape of lattice(). `color` is
+    /// asked only at voxels to be lit, at points 0 … 1 along the box of extent(display). Ok or InvalidArgument. Several
+    /// threads may paint different frames at once.
     Status paint(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame) const;
 
-private:
-    /// One row of a panel in one slice: `columns` voxels of row (y, k) of the volume, from x on.
-    struct PixelRow {
-        std::size_t offset_bytes;  ///< In the frame.
-        std::uint32_t x, y, k;
-        std::uint32_t columns;
-    };
+    /// The same for slices first … first + count − 1 alone; the rest of `frame`, which is whole, is left as it is.
+    /// Several threads may paint different slices of one frame at once.
+    Status paint_slices(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame,
+                        std::uint32_t first, std::uint32_t count) const;
 
+private:
     DisplayDescription display_;
     DisplayLattice lattice_;
+    WireOrder order_;
     DisplayExtent extent_;
-    std::vector<PixelRow> rows_;  ///< The slice map: in frame order, each voxel in exactly one row.
+    std::vector<std::uint64_t> allowed_;  ///< Uniform mode: the bits of all rows as WireOrder::fetch gives them.
+    std::size_t slice_words_ = 0;         ///< Of allowed_, for one slice.
 };
 
 }  // namespace xorvox::host

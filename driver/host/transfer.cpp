@@ -10,8 +10,14 @@ using namespace wire;
 namespace {
 
 constexpr std::size_t kMaxUnpresented = 16;  ///< More than a device has pages.
+constexpr std::size_t kMaxFates = 64;        ///< More than come between two submissions.
 
 }  // namespace
+
+Transfer::Transfer(SessionStatistics& statistics) : statistics_(&statistics) {
+    unpresented_.reserve(kMaxUnpresented + 1);
+    fates_.reserve(kMaxFates);
+}
 
 const char* Transfer::refusal_text() const {
     switch (refusal_) {
@@ -27,11 +33,21 @@ const char* Transfer::refusal_text() const {
     return "it did not answer";
 }
 
-void Transfer::begin_with(const EncoderLimits& limits) {
+void Transfer::begin_with(const EncoderLimits& limits, bool other_clock) {
     encoder_ = FrameEncoder(limits);
     has_base_ = false;
-    // The device keeps the last one for its next boundary, or it forgot them all; its clock may be another one.
-    for (Unpresented& frame : unpresented_) frame.due_ns = 0;
+    if (other_clock) {
+        present_at_ns_ = 0;
+        for (FrameFate& fate : fates_) fate.device_time_ns = 0;
+    }
+    if (unpresented_.empty()) return;
+    // The device keeps this one, for its next boundary; after a reset a later frame stands for it.
+    Unpresented last = unpresented_.front();
+    for (const Unpresented& frame : unpresented_) {
+        if (last.is_due_before(frame)) last = frame;
+    }
+    give_up([&](const Unpresented& frame) { return frame.number != last.number; });
+    unpresented_.front().due_ns = 0;
 }
 
 void Transfer::submit(std::span<const std::byte> content, std::uint64_t present_at_ns) {
@@ -39,7 +55,7 @@ void Transfer::submit(std::span<const std::byte> content, std::uint64_t present_
     present_at_ns_ = present_at_ns;
     failed_attempts_ = 0;
     phase_ = Phase::Queued;
-    ++statistics_->frames_submitted;
+    number_ = ++statistics_->frames_submitted;
     statistics_->bytes_raw += content.size();
 }
 
@@ -80,28 +96,55 @@ bool Transfer::accept(const Acknowledge& message) {
     has_base_ = message.frame == id_;
     phase_ = Phase::None;
     ++statistics_->frames_accepted;
-    unpresented_.push_back({.first_id = first_id_,
+    unpresented_.push_back({.number = number_,
+                            .first_id = first_id_,
                             .last_id = id_,
                             .accepted_id = message.frame,
                             .page_crc = message.page_crc,
                             .due_ns = std::max(present_at_ns_, message.device_time_ns)});
-    if (unpresented_.size() > kMaxUnpresented) unpresented_.pop_front();
+    if (unpresented_.size() > kMaxUnpresented) {
+        give_up([oldest = unpresented_.front().number](const Unpresented& other) { return other.number == oldest; });
+    }
     return true;
 }
 
-bool Transfer::presented(std::uint32_t frame, std::uint32_t page_crc) {
+bool Transfer::presented(std::uint32_t frame, std::uint32_t page_crc, std::uint64_t device_time_ns) {
     const auto found = std::find_if(unpresented_.begin(), unpresented_.end(), [&](const Unpresented& accepted) {
         return accepted.page_crc == page_crc && !is_newer(accepted.first_id, frame) &&
                !is_newer(frame, accepted.last_id);
     });
     if (found == unpresented_.end()) return false;
     const Unpresented shown = *found;
-    std::erase_if(unpresented_, [&](const Unpresented& accepted) {
-        return accepted.due_ns < shown.due_ns ||
-               (accepted.due_ns == shown.due_ns && !is_newer(accepted.accepted_id, shown.accepted_id));
-    });
+    unpresented_.erase(found);
+    give_up([&](const Unpresented& accepted) { return accepted.is_due_before(shown); });
+    note({.frame = shown.number, .presented = true, .device_time_ns = device_time_ns});
     ++statistics_->frames_presented;
     last_presented_ = shown.accepted_id;
+    return true;
+}
+
+bool Transfer::Unpresented::is_due_before(const Unpresented& other) const {
+    return due_ns < other.due_ns || (due_ns == other.due_ns && is_newer(other.accepted_id, accepted_id));
+}
+
+/// What fulfils `condition` will never be shown.
+template <class Condition>
+void Transfer::give_up(Condition condition) {
+    for (const Unpresented& frame : unpresented_) {
+        if (condition(frame)) note({.frame = frame.number});
+    }
+    std::erase_if(unpresented_, condition);
+}
+
+void Transfer::note(const FrameFate& fate) {
+    if (fates_.size() == kMaxFates) fates_.erase(fates_.begin());
+    fates_.push_back(fate);
+}
+
+bool Transfer::next_fate(FrameFate& fate) {
+    if (fates_.empty()) return false;
+    fate = fates_.front();
+    fates_.erase(fates_.begin());
     return true;
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -19,7 +18,7 @@ public:
     enum class Phase : std::uint8_t { None, Queued, Sending, Waiting };
 
     /// Counts what happens to frames in `statistics`, which is borrowed.
-    explicit Transfer(SessionStatistics& statistics) : statistics_(&statistics) {}
+    explicit Transfer(SessionStatistics& statistics);
 
     Phase phase() const { return phase_; }
     bool began() const { return phase_ == Phase::Sending || phase_ == Phase::Waiting; }
@@ -28,8 +27,10 @@ public:
     std::uint32_t last_accepted() const { return last_accepted_; }
     std::uint32_t last_presented() const { return last_presented_; }
 
-    /// Another device, or the same one after it forgot everything: no delta can be based on what it had.
-    void begin_with(const EncoderLimits& limits);
+    /// Another session with the device: no delta can be based on what it had, and of the frames that it accepted it
+    /// keeps the last one at most. With `other_clock` it is not the device that it was, or was reset: times of the
+    /// clock before mean nothing any more.
+    void begin_with(const EncoderLimits& limits, bool other_clock);
 
     /// None to Queued: a copy of `content` is to be sent.
     void submit(std::span<const std::byte> content, std::uint64_t present_at_ns);
@@ -49,7 +50,10 @@ public:
     bool is_refused_by(const wire::Nack& message) const { return began() && message.frame == id_; }
     /// `frame`, whose page has this CRC, is being shown: an id alone may be of another session. True when that is news
     /// of an accepted frame; those that were due before it will never be shown. Counted once for each accepted frame.
-    bool presented(std::uint32_t frame, std::uint32_t page_crc);
+    /// `device_time_ns`: since when, 0 where nobody said.
+    bool presented(std::uint32_t frame, std::uint32_t page_crc, std::uint64_t device_time_ns);
+    /// The oldest fate that was not asked for yet; false when there is none.
+    bool next_fate(FrameFate& fate);
     /// Whether an accepted frame is not known to be shown.
     bool awaits_presentation() const { return !unpresented_.empty(); }
     /// Whether one of these is due at this time of the device's clock.
@@ -58,19 +62,26 @@ public:
 private:
     /// A frame that was accepted, under one of its ids. The device may have accepted, and show, it under each of them.
     struct Unpresented {
+        std::uint64_t number;
         std::uint32_t first_id;
         std::uint32_t last_id;
         std::uint32_t accepted_id;
         std::uint32_t page_crc;
         std::uint64_t due_ns;  ///< Device clock.
+
+        bool is_due_before(const Unpresented& other) const;
     };
 
     bool is_an_attempt(std::uint32_t frame) const;
+    void note(const FrameFate& fate);
+    template <class Condition>
+    void give_up(Condition condition);
 
     SessionStatistics* statistics_;
     FrameEncoder encoder_;
     Phase phase_ = Phase::None;
     std::vector<std::byte> content_;
+    std::uint64_t number_ = 0;
     std::uint64_t present_at_ns_ = 0;
     std::uint32_t id_ = 0;        ///< Of the last attempt.
     std::uint32_t first_id_ = 0;  ///< Of the first attempt with the same content.
@@ -83,7 +94,8 @@ private:
     bool has_base_ = false;
     std::uint32_t last_accepted_ = 0;
     std::uint32_t last_presented_ = 0;
-    std::deque<Unpresented> unpresented_;
+    std::vector<Unpresented> unpresented_;  ///< In the order of acceptance.
+    std::vector<FrameFate> fates_;          ///< The oldest first.
 };
 
 }  // namespace xorvox::host

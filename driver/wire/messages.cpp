@@ -45,7 +45,7 @@ void fields(Is<Nack> auto& m, auto& visit) {
 }
 void fields(Is<DeviceStatus> auto& m, auto& visit) {
     visit(m.brightness, m.blank, m.silence_action, m.watchdog_ms, m.fault, m.shown_frame, m.has_frame, m.shown_crc,
-          m.free_pages, m.frames_accepted, m.frames_dropped, m.packets_bad, m.device_time_ns);
+          m.free_pages, m.frames_accepted, m.frames_dropped, m.packets_bad, m.device_time_ns, m.faults);
 }
 
 template <class T>

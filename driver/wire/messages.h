@@ -22,8 +22,23 @@ enum class Codec : std::uint8_t { Raw = 0, Lz4 = 1 };
 /// Bits of Hello::features.
 enum Features : std::uint32_t { kFeatureDelta = 1, kFeaturePresentAt = 2 };
 
-/// Why the device blanked itself; latched until Control::ClearFault. 0 is none.
-enum class Fault : std::uint8_t { None = 0, SilentHost = 1, Scan = 2 };
+/// Why the device blanked itself. Each is latched by itself until a Control ClearFault names it.
+enum class Fault : std::uint8_t {
+    None = 0,
+    SilentHost = 1,  ///< No packet of the host for the watchdog's time.
+    LateScan = 2,    ///< The scanner was still at a slice when its place had passed, or did not report it at all.
+    LostIndex = 3,   ///< No index pulses, or none that fit the turn.
+    Stall = 4,       ///< It turns too slowly, or stands.
+    Overspeed = 5,
+    Reversed = 6,   ///< It turns backwards.
+    Interlock = 7,  ///< The interlock is open, or was.
+};
+inline constexpr std::uint8_t kHighestFault = 7;
+
+/// The bit of `fault` in a mask of faults; none's is 0.
+constexpr std::uint32_t fault_bit(Fault fault) {
+    return fault == Fault::None ? 0 : std::uint32_t{1} << static_cast<unsigned>(fault);
+}
 
 /// Host to device: who are you? Starts a session; the device forgets the one before.
 struct HelloRequest {
@@ -49,7 +64,7 @@ struct Hello {
     std::uint8_t pages = 0;
     std::uint32_t max_packet_bytes = 0;
     std::uint32_t codecs = 1;
-    Fault fault = Fault::None;
+    Fault fault = Fault::None;    ///< Of several the one with the highest number.
     std::uint8_t free_pages = 0;  ///< Credits at the start: pages neither shown, pending nor delta base.
     std::uint64_t device_time_ns = 0;
     std::uint64_t host_time_ns = 0;  ///< HelloRequest::host_time_ns.
@@ -91,7 +106,7 @@ enum class ControlOperation : std::uint8_t {
     Blank = 2,          ///< value: 1 dark, 0 show again.
     SilencePolicy = 3,  ///< value: SilenceAction when the watchdog runs out.
     Watchdog = 4,       ///< value: milliseconds without a packet until the policy acts; 0 off.
-    ClearFault = 5,     ///< value: 0.
+    ClearFault = 5,     ///< value: the fault to clear, 1 … kHighestFault; the others stay.
     Status = 6,         ///< value: 0. The answer is a DeviceStatus.
 };
 enum class SilenceAction : std::uint8_t { Hold = 0, Blank = 1 };
@@ -154,7 +169,7 @@ struct DeviceStatus {
     std::uint8_t blank = 0;  ///< 1: dark, by command, policy or fault.
     SilenceAction silence_action = SilenceAction::Blank;
     std::uint32_t watchdog_ms = 0;
-    Fault fault = Fault::None;
+    Fault fault = Fault::None;      ///< As in Hello.
     std::uint32_t shown_frame = 0;  ///< Id of the frame being shown; valid if has_frame.
     std::uint8_t has_frame = 0;
     std::uint32_t shown_crc = 0;  ///< Digest of the page being shown.
@@ -163,6 +178,7 @@ struct DeviceStatus {
     std::uint32_t frames_dropped = 0;
     std::uint32_t packets_bad = 0;  ///< Packets that decode_packet refused, and damage that the link reported.
     std::uint64_t device_time_ns = 0;
+    std::uint32_t faults = 0;  ///< fault_bit() of every fault that is latched.
 };
 
 /// Writes `message` to the start of `out` and sets `size`. Ok, or OutOfMemory when `out` is too small (for Chunk:

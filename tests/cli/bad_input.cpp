@@ -107,7 +107,7 @@ TEST_CASE("outputs that cannot be are refused", "[cli]") {
     refused({"show", mesh, "--display", "cube16-ws2812", "--png", folder.path("p.png"), "--to", "tcp:127.0.0.1:1"},
             {"--png", "loopback"});
     refused({"show", mesh, "--display", "cube16-ws2812", "--to", "file:" + folder.path("missing/f")}, {"missing"});
-    refused({"show", mesh, "--display", "cube16-ws2812", "--to", "file:" + mesh}, {"the mesh itself"});
+    refused({"show", mesh, "--display", "cube16-ws2812", "--to", "file:" + mesh}, {"the input itself"});
     refused({"show", mesh, "--display", "cube16-ws2812", "--png", folder.path("p.jpg")}, {"p.jpg", ".png"});
     CHECK(read_file(mesh) == cube_obj(1.0));
     CHECK(folder.names() == std::vector<std::string>{"cube.obj"});

@@ -31,7 +31,7 @@ TEST_CASE("every subcommand has help with an example", "[cli]") {
 
 TEST_CASE("displays lists one preset a line, name first, without a heading", "[cli]") {
     const std::string out = succeeds({"displays"}).out;
-    CHECK(out.starts_with("cube16-ws2812 "));
+    CHECK(out.starts_with("candle "));
     CHECK_THAT(out, Catch::Contains("\nvortex "));
 }
 

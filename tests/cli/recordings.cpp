@@ -37,6 +37,6 @@ TEST_CASE("two recordings that are played to one display are both shown", "[cli]
         (void)display->poll(now_ns);
         const sim::LightField light = display->light();
         REQUIRE(light.flashes.size() > 100);
-        CHECK(light.flashes.front().light == (color == "red" ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1)));
+        CHECK(light.light(light.flashes.front()) == (color == "red" ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1)));
     }
 }

@@ -1,10 +1,13 @@
 // Firmware of a display of 8 × 8 × 8 voxels whose link is the golden conversation: it answers every packet to the
-// letter and shows the pictures that were sent, or ends with status 1.
+// letter and shows the pictures that were sent, or ends with status 1. Then the same slices turn: it follows the index
+// pulses, lights each slice in its place and dims the bright one, and goes dark when the pulses stop.
 #include <algorithm>
 #include <array>
 #include <span>
 
+#include "driver/device/config.h"
 #include "driver/device/device.h"
+#include "driver/device/scan_control.h"
 #include "golden_conversation.h"
 #include "tests/embedded/semihosting.h"
 
@@ -22,6 +25,16 @@ constexpr DisplayDescription kDisplay = [] {
     display.cycles_per_second = 60.0;
     display.panels[0] = {.columns = 8, .rows = 8, .column_pitch_mm = 10.0, .row_pitch_mm = 10.0};
     return display;
+}();
+
+// Slice 3 of frame 2 draws most: 28 LEDs, 280 mA at full brightness. The host asked for half of it.
+constexpr device::ScanControlConfig kTurning = [] {
+    DisplayDescription display = kDisplay;
+    display.kind = DisplayKind::RotatingPanel;
+    display.cycles_per_second = 20.0;
+    display.sync = {.index = IndexSource::Pulses, .index_pulses = 1};
+    display.power = {.led_ma = 10.0, .limit_ma = 125.0};
+    return device::scan_control_config(display, {.reports_scans = true, .has_interlock = true});
 }();
 
 std::span<const std::byte> packet_of(const GoldenStep& step) {
@@ -71,6 +84,7 @@ std::array<std::byte, 2 * frame_bytes(kDisplay)> pages;
 std::array<std::byte, wire::kMinPacketBytes> packet_buffer;
 Script script;
 device::Device display_device;
+device::ScanControl scan_control;
 
 /// What frame 2 of the conversation shows: bytes 0 … 31 count up, byte 10 is inverted, the last bit is lit.
 bool shows_frame_2() {
@@ -83,6 +97,34 @@ bool shows_frame_2() {
         if (page[i] != static_cast<std::byte>(expected)) return false;
     }
     return true;
+}
+
+/// Half a second of pulses and a half without, a turn of 50 ms; the scanner is told every 100 µs.
+const char* turn(std::uint64_t now_ns) {
+    constexpr std::uint64_t kTurnNs = 50'000'000;
+    constexpr std::uint64_t kPollNs = 100'000;
+    if (scan_control.init(kTurning, display_device, now_ns) != Status::Ok) return "the display cannot turn\n";
+    scan_control.interlock(true);
+    device::ScanOrder shown;
+    std::uint32_t lit = 0;
+    for (std::uint64_t t = 0; t < 20 * kTurnNs; t += kPollNs) {
+        if (t % kTurnNs == 0 && t <= 10 * kTurnNs) scan_control.index_pulse(now_ns + t);
+        const device::ScanOrder& order = scan_control.poll(now_ns + t);
+        if (order.number == shown.number) continue;
+        if (shown.lit()) scan_control.scan_done(shown, now_ns + t);
+        if (order.lit()) {
+            if (lit > 0 && order.slice != (shown.slice + 1) % kDisplay.slices) return "a slice is out of order\n";
+            if (order.slice != t * kDisplay.slices / kTurnNs % kDisplay.slices) return "a slice is out of place\n";
+            if (order.brightness != (order.slice == 3 ? 113 : 128)) return "the current limit does not hold\n";
+            ++lit;
+        }
+        shown = order;
+    }
+    if (lit < 50) return "too few slices were lit\n";
+    if (shown.dark != device::Dark::Fault || display_device.fault() != wire::Fault::LostIndex) {
+        return "it went on without its index\n";
+    }
+    return nullptr;
 }
 
 int fail(const char* why) {
@@ -114,6 +156,7 @@ int run_firmware() {
         if (step.kind == '|') display_device.boundary(now_ns);
     }
     if (!shows_frame_2()) return fail("the picture differs\n");
-    semihosting::print("the golden conversation went to the letter\n");
+    if (const char* wrong = turn(now_ns)) return fail(wrong);
+    semihosting::print("the golden conversation went to the letter, and the slices to their places\n");
     return 0;
 }

@@ -95,7 +95,7 @@ TEST_CASE("the side that the camera is on is the side that is seen") {
     display.panels[0] = {.columns = 4, .rows = 4};
     sim::LightField field = sim::expose(display, std::vector<std::byte>(frame_bytes(display), std::byte{0xff}), 255);
     for (sim::Flash& flash : field.flashes) {
-        flash.light = flash.place_mm.y < 0.0 ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
+        flash.code = flash.place_mm.y < 0.0 ? 0x0000ff : 0xff0000;
     }
     sim::PictureOptions options{.width = 120, .height = 90, .azimuth_deg = 0.0, .elevation_deg = 0.0};
     const auto front = sim::render_perspective(display, field, options);
@@ -135,7 +135,7 @@ TEST_CASE("a single voxel is seen from near, from within the display") {
     display.cycles_per_second = 60.0;
     display.panels[0] = {.columns = 64, .rows = 64};
     sim::LightField field;
-    field.flashes.push_back({{31.5, -31.5, 31.5}, glm::vec3(1.0f), 1, 0});
+    field.flashes.push_back({{31.5, -31.5, 31.5}, 1, 0});
     const auto picture = sim::render_perspective(display, field, {.width = 160, .height = 120});
     XORVOX_NEED_GL(picture);
     CHECK(picture->covered > 0.45);

@@ -1,9 +1,13 @@
 #include "tests/roundtrip/rig.h"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
+#include <glm/common.hpp>
+
+#include "driver/display/lattice.h"
 #include "driver/host/pixel.h"
 #include "driver/host/slices.h"
 #include "transport/loopback.h"
@@ -20,45 +24,82 @@ Mesh lopsided(std::uint32_t turn) {
     return mesh;
 }
 
+Mesh hollow(std::uint32_t turn) {
+    Mesh mesh = lopsided(turn);
+    const auto corners = static_cast<std::uint32_t>(mesh.positions.size());
+    const std::vector<std::uint32_t> faces = mesh.indices;
+    glm::dvec3 middle(0.0);
+    for (std::uint32_t i = 0; i < corners; ++i) middle += mesh.positions[i] / static_cast<double>(corners);
+    for (std::uint32_t i = 0; i < corners; ++i) mesh.positions.push_back(middle + 0.92 * (mesh.positions[i] - middle));
+    for (const std::uint32_t index : faces) mesh.indices.push_back(index + corners);
+    return mesh;
+}
+
+namespace {
+
+constexpr glm::vec3 kBorder(0.4871f, 0.5219f, 0.4637f);  ///< Of Octants.
+
+bool is_at_a_border(const glm::dvec3& point) {
+    constexpr double kNear = 1e-6;
+    const glm::dvec3 away = glm::abs(point - glm::dvec3(kBorder));
+    return std::min({away.x, away.y, away.z}) < kNear;
+}
+
+/// As large as the display, and where it is.
+Mesh placed_in(const DisplayExtent& room, Mesh mesh) {
+    glm::dvec3 half = (room.upper - room.lower) / 2.0;
+    if (room.radius_mm > 0.0) half.x = half.y = room.radius_mm / 1.3;
+    for (glm::dvec3& p : mesh.positions) p = p * half + (room.lower + room.upper) / 2.0;
+    return mesh;
+}
+
+}  // namespace
+
 glm::vec3 Octants::color(const glm::vec3& point) {
-    return {point.x > 0.4871f ? 1.0f : 0.4f, point.y > 0.5219f ? 0.8f : 0.3f, point.z > 0.4637f ? 0.6f : 0.0f};
+    return {point.x > kBorder.x ? 1.0f : 0.4f, point.y > kBorder.y ? 0.8f : 0.3f, point.z > kBorder.z ? 0.6f : 0.0f};
 }
 
 void Octants::evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const {
     std::transform(points.begin(), points.end(), colors.begin(), color);
 }
 
-Picture paint(const DisplayDescription& display, const Mesh& mesh) {
-    host::FramePainter painter(display);
+void Plain::evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const {
+    std::fill_n(colors.begin(), points.size(), kColor);
+}
+
+Picture paint(const DisplayDescription& display, const Mesh& mesh, const host::ColorField& field) {
+    const host::FramePainter painter(display);
     const Lattice lattice = painter.lattice().view();
     const DisplayExtent room = extent(display);
-    const double reach = room.radius_mm > 0.0 ? room.radius_mm / 1.3 : (room.upper.x - room.lower.x) / 2.0;
-    const glm::dvec3 half{reach, room.radius_mm > 0.0 ? reach : (room.upper.y - room.lower.y) / 2.0,
-                          (room.upper.z - room.lower.z) / 2.0};
-    Mesh placed = mesh;
-    for (glm::dvec3& p : placed.positions) p = p * half + (room.lower + room.upper) / 2.0;
-
     Picture picture;
-    auto volume = voxelize(placed.view(), lattice);
+    auto volume = voxelize(placed_in(room, mesh).view(), lattice);
     if (!volume) throw std::runtime_error(volume.error().message);
     picture.volume = std::move(*volume);
 
-    const Octants field;
-    picture.frame.resize(frame_bytes(display));
-    if (painter.paint(picture.volume.view(), field, picture.frame) != Status::Ok) throw std::runtime_error("paint");
-
-    picture.codes.resize(lattice.sample_count());
-    std::size_t sample = 0;
-    for (std::uint32_t z = 0; z < lattice.nz; ++z) {
+    for (std::uint32_t k = 0; k < lattice.nz; ++k) {
         for (std::uint32_t y = 0; y < lattice.ny; ++y) {
-            for (std::uint32_t x = 0; x < lattice.nx; ++x, ++sample) {
-                if (!picture.volume.test(x, y, z)) continue;
-                const glm::dvec3 place = sample_position(lattice, x, y, z);
-                const glm::vec3 point((place - room.lower) / (room.upper - room.lower));
-                picture.codes[sample] = host::visible_code(Octants::color(point), display.format);
+            const std::span<std::uint64_t> row = picture.volume.view().row(y, k);
+            for (std::size_t word = 0; word < row.size(); ++word) {
+                for (std::uint64_t rest = row[word]; rest != 0; rest &= rest - 1) {
+                    const auto x =
+                        static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(rest));
+                    const glm::dvec3 place = sample_position(lattice, x, y, k);
+                    const glm::dvec3 point = (place - room.lower) / (room.upper - room.lower);
+                    if (is_at_a_border(point)) {
+                        picture.volume.view().flip(x, y, k);
+                        continue;
+                    }
+                    const glm::vec3 asked(point);
+                    glm::vec3 color;
+                    field.evaluate({&asked, 1}, {&color, 1});
+                    const std::uint64_t sample = (std::uint64_t{k} * lattice.ny + y) * lattice.nx + x;
+                    picture.codes.push_back({sample, host::visible_code(color, display.format)});
+                }
             }
         }
     }
+    picture.frame.resize(frame_bytes(display));
+    if (painter.paint(picture.volume.view(), field, picture.frame) != Status::Ok) throw std::runtime_error("paint");
     return picture;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,20 +23,33 @@ namespace xorvox::test {
 /// A tetrahedron without any symmetry, within ±1; `turn` picks one of several different ones.
 Mesh lopsided(std::uint32_t turn);
 
-/// Eight different colours, one an octant of the lattice's box; the borders run where no sample is near.
+/// Two surfaces, one inside the other: of the solid between them few voxels are set, for large displays.
+Mesh hollow(std::uint32_t turn);
+
+/// Eight different colours, one an octant of the lattice's box.
 class Octants final : public host::ColorField {
 public:
     static glm::vec3 color(const glm::vec3& point);
     void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override;
 };
 
-/// Voxels of one mesh on one display, and the frame that the host makes of them, in the colours of Octants.
+/// One colour, which the host need not ask for point by point.
+class Plain final : public host::ColorField {
+public:
+    static constexpr glm::vec3 kColor{0.9f, 0.5f, 0.2f};
+    void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override;
+    std::optional<glm::vec3> constant() const override { return kColor; }
+};
+
+/// Voxels of one mesh on one display, and the frame that the host makes of them.
 struct Picture {
     BitVolume volume;
     std::vector<std::byte> frame;
-    std::vector<std::uint32_t> codes;  ///< One a sample of the display's lattice: the colour's code, or 0.
+    std::vector<sim::SampleCode> codes;  ///< Of the set voxels: the colour's code at each.
 };
-Picture paint(const DisplayDescription& display, const Mesh& mesh);
+/// The mesh, which is within ±1, as large as the display. Voxels so near to a border of Octants that rounding decides
+/// their colour are left out.
+Picture paint(const DisplayDescription& display, const Mesh& mesh, const host::ColorField& field = Octants());
 
 /// A host and a simulated display at the two ends of one link.
 class Rig {

@@ -37,7 +37,7 @@ TEST_CASE("two seconds without a packet blank the display, tell the host, and st
     desk.accept(2, frame_of(2));
     desk.present();
     CHECK(desk.dark());
-    CHECK(desk.set(ControlOperation::ClearFault, 0).fault == Fault::None);
+    CHECK(desk.set(ControlOperation::ClearFault, 1).fault == Fault::None);
     CHECK(desk.shown() == frame_of(2));
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("the display goes dark with the host and its link gone, and the next h
     desk.link.closed = false;
     desk.device.set_link(desk.link.link());
     CHECK(desk.hello().fault == Fault::SilentHost);
-    desk.set(ControlOperation::ClearFault, 0);
+    desk.set(ControlOperation::ClearFault, 1);
     CHECK(desk.shown() == frame_of(1));
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("the watchdog's time is the host's to set, and 0 turns it off") {
     desk.work();
     CHECK(desk.dark());
     desk.answer<DeviceStatus>();
-    desk.set(ControlOperation::ClearFault, 0);
+    desk.set(ControlOperation::ClearFault, 1);
     desk.set(ControlOperation::Watchdog, 0);
     desk.now_ns += 100'000 * kMs;
     desk.work();
@@ -157,10 +157,12 @@ TEST_CASE("brightness reaches what is shown") {
 
 TEST_CASE("unknown operations and values out of range are refused and change nothing") {
     Lit desk;
-    for (const Control control : {Control{ControlOperation::Brightness, 256}, Control{ControlOperation::Blank, 2},
-                                  Control{ControlOperation::SilencePolicy, 2}, Control{ControlOperation::ClearFault, 1},
-                                  Control{ControlOperation::Status, 1}, Control{static_cast<ControlOperation>(0), 0},
-                                  Control{static_cast<ControlOperation>(77), 0}}) {
+    for (const Control control :
+         {Control{ControlOperation::Brightness, 256}, Control{ControlOperation::Blank, 2},
+          Control{ControlOperation::SilencePolicy, 2}, Control{ControlOperation::ClearFault, 0},
+          Control{ControlOperation::ClearFault, kHighestFault + 1}, Control{ControlOperation::ClearFault, 0x101},
+          Control{ControlOperation::Status, 1}, Control{static_cast<ControlOperation>(0), 0},
+          Control{static_cast<ControlOperation>(77), 0}}) {
         desk.send(control);
         CHECK(desk.refusal(0) == NackReason::BadControl);
     }
@@ -187,19 +189,66 @@ TEST_CASE("status says what is shown and what happened") {
     CHECK(Desk().device.status(0).has_frame == 0);
 }
 
-TEST_CASE("a scanner's fault darkens at once, is told, and a silent host's does not hide it") {
-    Lit desk;
-    desk.device.raise_fault(Fault::Scan);
-    CHECK(desk.dark());
-    CHECK(desk.answer<DeviceStatus>().fault == Fault::Scan);
-    desk.now_ns += 5000 * kMs;
-    desk.work();
-    CHECK(desk.device.status(desk.now_ns).fault == Fault::Scan);
+TEST_CASE("every fault darkens at once, is told once, and stays until the command that names it") {
+    for (std::uint8_t number = 1; number <= kHighestFault; ++number) {
+        INFO("fault " << int{number});
+        const auto fault = static_cast<Fault>(number);
+        Lit desk;
+        desk.device.raise_fault(fault);
+        CHECK(desk.dark());
+        const DeviceStatus told = desk.answer<DeviceStatus>();
+        CHECK(told.fault == fault);
+        CHECK(told.faults == 1u << number);
+        CHECK(told.blank == 1);
+        desk.device.raise_fault(fault);
+        CHECK(desk.silent());
 
-    Lit other;
-    other.device.raise_fault(Fault::SilentHost);
-    other.device.raise_fault(Fault::Scan);
-    CHECK(other.device.status(other.now_ns).fault == Fault::Scan);
+        for (std::uint8_t other = 1; other <= kHighestFault; ++other) {
+            if (other != number) CHECK(desk.set(ControlOperation::ClearFault, other).fault == fault);
+        }
+        desk.set(ControlOperation::Blank, 1);
+        desk.set(ControlOperation::Blank, 0);
+        ++desk.session;
+        CHECK(desk.hello().fault == fault);
+        CHECK(desk.dark());
+        CHECK(desk.set(ControlOperation::ClearFault, number).faults == 0);
+        CHECK_FALSE(desk.dark());
+    }
+}
+
+TEST_CASE("of several faults the highest is told first, and the display is dark until the last is cleared") {
+    Lit desk;
+    for (const Fault fault : {Fault::LateScan, Fault::Interlock, Fault::SilentHost}) {
+        desk.device.raise_fault(fault);
+        desk.answer<DeviceStatus>();
+    }
+    CHECK(desk.device.status(desk.now_ns).faults == 0b10000110);
+    CHECK(desk.device.fault() == Fault::Interlock);
+    CHECK(desk.set(ControlOperation::ClearFault, 7).fault == Fault::LateScan);
+    CHECK(desk.set(ControlOperation::ClearFault, 1).faults == 0b100);
+    CHECK(desk.dark());
+    CHECK(desk.set(ControlOperation::ClearFault, 2).fault == Fault::None);
+    CHECK_FALSE(desk.dark());
+}
+
+TEST_CASE("a silent host's fault does not hide behind another, nor is it cleared with it") {
+    Lit desk;
+    desk.device.raise_fault(Fault::LateScan);
+    desk.answer<DeviceStatus>();
+    desk.now_ns += 5000 * kMs;
+    CHECK(desk.answer<DeviceStatus>().faults == 0b110);
+    CHECK(desk.set(ControlOperation::ClearFault, 2).fault == Fault::SilentHost);
+    CHECK(desk.dark());
+}
+
+TEST_CASE("a fault that does not exist cannot be raised") {
+    Lit desk;
+    desk.device.raise_fault(Fault::None);
+    desk.device.raise_fault(static_cast<Fault>(kHighestFault + 1));
+    desk.device.raise_fault(static_cast<Fault>(200));
+    CHECK(desk.device.faults() == 0);
+    CHECK_FALSE(desk.dark());
+    CHECK(desk.silent());
 }
 
 TEST_CASE("settings outlast the session") {

@@ -3,7 +3,9 @@
 
 #include "driver/display/lattice.h"
 #include "driver/display/toml.h"
+#include "driver/display/trigonometry.h"
 #include "tests/catch.h"
+#include "tests/displays.h"
 
 using namespace xorvox;
 
@@ -22,19 +24,6 @@ void check_place(const glm::dvec3& place, double x, double y, double z) {
     CHECK(place.x == Approx(x).margin(1e-12));
     CHECK(place.y == Approx(y).margin(1e-12));
     CHECK(place.z == Approx(z).margin(1e-12));
-}
-
-/// The LED as description.h draws it, with the C library's functions.
-glm::dvec3 drawn(const DisplayDescription& display, std::uint32_t slice, std::uint32_t p, std::uint32_t row,
-                 std::uint32_t column) {
-    const Panel& panel = display.panels[p];
-    const double turn = 6.283185307179586;
-    const double phase = turn * (slice + 0.5) / display.slices;
-    const double theta = (display.clockwise ? -phase : phase) + panel.angle_deg / 360.0 * turn;
-    const double along = panel.shift_mm + (column - (panel.columns - 1) / 2.0) * panel.column_pitch_mm;
-    return {std::cos(theta) * along + std::sin(theta) * panel.offset_mm,
-            std::sin(theta) * along - std::cos(theta) * panel.offset_mm,
-            panel.lift_mm + ((panel.rows - 1) / 2.0 - row) * panel.row_pitch_mm};
 }
 
 }  // namespace
@@ -112,6 +101,80 @@ TEST_CASE("the back panel of a pair is the front one half a turn on") {
     }
 }
 
+TEST_CASE("sines, cosines and angles are those of the C library, but for the last bits") {
+    for (int i = -1000; i <= 1000; ++i) {
+        const double turns = i / 700.0;
+        const glm::dvec2 place = display::direction(turns);
+        REQUIRE(std::abs(place.x - std::cos(turns * 6.283185307179586)) < 4e-15);
+        REQUIRE(std::abs(place.y - std::sin(turns * 6.283185307179586)) < 4e-15);
+        const double angle = display::angle_turns(place * (1.0 + i * i));
+        REQUIRE(angle >= 0.0);
+        REQUIRE(angle < 1.0);
+        const double off = turns - angle;
+        REQUIRE(std::abs(off - std::round(off)) < 1e-15);
+    }
+    CHECK(display::angle_turns({0, 0}) == 0.0);
+    CHECK(display::angle_turns({1, 0}) == 0.0);
+    CHECK(display::angle_turns({0, 2}) == 0.25);
+    CHECK(display::angle_turns({-3, 0}) == 0.5);
+    CHECK(display::angle_turns({0, -1}) == 0.75);
+    CHECK(display::angle_turns({2, 2}) == 0.125);
+    CHECK(display::angle_turns({1, -1e-300}) == 0.0);
+}
+
+TEST_CASE("every display's lattice is valid, has one sample a pixel, and each is inside the extent's box") {
+    for (const DisplayDescription& display : test::odd_displays()) {
+        INFO(std::string(display.name.view()));
+        const DisplayLattice lattice(display);
+        const Lattice view = lattice.view();
+        REQUIRE(validate(view) == Status::Ok);
+        CHECK(view.sample_count() == frame_pixels(display));
+        CHECK(view.column_count() == lattice_columns(display));
+        const DisplayExtent box = extent(display);
+        for (std::uint32_t y = 0; y < view.ny; ++y) {
+            for (std::uint32_t x = 0; x < view.nx; ++x) {
+                for (std::uint32_t k = 0; k < view.nz; ++k) {
+                    const glm::dvec3 place = sample_position(view, x, y, k);
+                    for (int axis = 0; axis < 3; ++axis) {
+                        REQUIRE(place[axis] >= box.lower[axis]);
+                        REQUIRE(place[axis] <= box.upper[axis]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("panels that are mounted on their side or in a mirror keep the display upright, tilted ones do not") {
+    CHECK(is_upright(test::upright_rotor(false, true, 1)));
+    CHECK(is_upright(test::upright_rotor(false, false, 2)));
+    DisplayDescription display = test::upright_rotor(false, false, 0);
+    display.panels[1].lift_mm += 1.0;
+    CHECK_FALSE(is_upright(display));
+    display = test::upright_rotor(false, false, 0);
+    display.panels[1].tilt_deg = -1.0;
+    CHECK_FALSE(is_upright(display));
+    display = test::upright_rotor(false, false, 3);
+    display.panels[0].skew_mm = 1.0;
+    CHECK_FALSE(is_upright(display));
+    display = test::upright_rotor(false, false, 0);
+    display.panels[1].rows = 5;
+    CHECK_FALSE(is_upright(display));
+}
+
+TEST_CASE("a sine sweep has its slices closer together at its ends, at constant speed they are a regular lattice") {
+    for (const DisplayDescription& display : test::odd_displays()) {
+        if (display.kind != DisplayKind::SweptPlane) continue;
+        const DisplayLattice lattice(display);
+        const Lattice view = lattice.view();
+        CHECK(view.is_regular() == (display.motion.profile == MotionProfile::Constant));
+        if (display.motion.profile != MotionProfile::Sine) continue;
+        const double first = view.z[1] - view.z[0];
+        const double middle = view.z[5] - view.z[4];
+        CHECK(first < 0.6 * middle);
+    }
+}
+
 TEST_CASE("every sample of every slice is where the drawing puts the LED") {
     for (const bool clockwise : {false, true}) {
         auto display = rotor(37);
@@ -127,7 +190,7 @@ TEST_CASE("every sample of every slice is where the drawing puts the LED") {
         for (std::uint32_t slice = 0; slice < 37; ++slice) {
             for (std::uint32_t x = 0; x < 11; ++x) {
                 for (std::uint32_t row = 0; row < 3; ++row) {
-                    const glm::dvec3 led = drawn(display, slice, x < 4 ? 0 : 1, row, x < 4 ? x : x - 4);
+                    const glm::dvec3 led = test::drawn(display, slice, x < 4 ? 0 : 1, row, x < 4 ? x : x - 4);
                     const glm::dvec3 sample = sample_position(view, x, slice, 2 - row);
                     REQUIRE(std::abs(led.x - sample.x) < 1e-12);
                     REQUIRE(std::abs(led.y - sample.y) < 1e-12);
@@ -145,7 +208,9 @@ TEST_CASE("every sample is inside the extent's box, and the cylinder is what all
     two.panels[1].columns = 10;
     two.panels[1].offset_mm = 3;
     two.panels[0].lift_mm = two.panels[1].lift_mm = -7;
-    for (const auto& display : {load_display("cube16-ws2812").value(), load_display("vortex").value(), two}) {
+    const auto cube = load_display("cube16-ws2812").value();
+    const auto vortex = load_display("vortex").value();
+    for (const DisplayDescription& display : {DisplayDescription(cube), DisplayDescription(vortex), two}) {
         const DisplayLattice lattice(display);
         const Lattice view = lattice.view();
         const DisplayExtent box = extent(display);
@@ -161,7 +226,8 @@ TEST_CASE("every sample is inside the extent's box, and the cylinder is what all
             }
         }
     }
-    CHECK(extent(load_display("vortex").value()).radius_mm == Approx(std::hypot(160.0, 5.0)));
+    const Panel& front = vortex.panels[0];
+    CHECK(extent(vortex).radius_mm == Approx(std::hypot(64 * front.column_pitch_mm, front.offset_mm)));
     CHECK(extent(two).radius_mm == Approx(4.0));
     CHECK(extent(two).upper.x == Approx(std::hypot(10.0, 3.0)));
     CHECK(extent(two).lower.z == -7 - 7.5);

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
 
+#include "driver/display/timing.h"
 #include "driver/display/toml.h"
 #include "tests/catch.h"
 
@@ -10,7 +12,7 @@ using namespace xorvox;
 
 TEST_CASE("the presets are listed by name, each with a summary of one line") {
     const auto& all = presets();
-    REQUIRE(all.size() >= 2);
+    REQUIRE(all.size() == 9);
     CHECK(std::ranges::is_sorted(all, {}, &Preset::name));
     for (const Preset& preset : all) {
         INFO(preset.name);
@@ -39,29 +41,71 @@ TEST_CASE("the embedded presets are the files") {
     }
 }
 
-TEST_CASE("cube16-ws2812 is 16 planes of 16 x 16 pixels of 24 bits") {
-    const auto display = load_display("cube16-ws2812").value();
-    CHECK(display.kind == DisplayKind::StackedPlanes);
-    CHECK(display.slices == 16);
-    CHECK(bits_per_pixel(display.format) == 24);
-    CHECK(frame_pixels(display) == 4096);
-    CHECK(frame_bytes(display) == 12288);
-    CHECK(display.cycles_per_second >= 60.0);
-    CHECK(display.cycles_per_second <= 110.0);
-    CHECK(geometry_digest(display) == 0x7bb5765c167872d1u);
+TEST_CASE("every display of the table of facts is a preset") {
+    std::string names;
+    for (const Preset& preset : presets()) names += std::string(preset.name) + " ";
+    CHECK(names == "candle cube16-ws2812 cube20-ws2812 cube8-595 depthcube perspecta rotovox vortex vx1 ");
 }
 
-TEST_CASE("vortex is two panels of 128 x 64 pixels back to back, 360 slices a turn, rgb332") {
-    const auto display = load_display("vortex").value();
-    CHECK(display.kind == DisplayKind::RotatingPanel);
-    CHECK(display.slices == 360);
-    CHECK(display.format == PixelFormat::Rgb332);
-    REQUIRE(display.panel_count == 2);
-    for (std::size_t p = 0; p < 2; ++p) {
-        CHECK(display.panels[p].columns == 128);
-        CHECK(display.panels[p].rows == 64);
+TEST_CASE("each preset says where it is known from and what is assumed") {
+    for (const Preset& preset : presets()) {
+        INFO(preset.name);
+        CHECK(preset.text.find("# Public source") != std::string_view::npos);
+        CHECK_FALSE(load_display(std::string(preset.name)).value().assumed.empty());
+        CHECK(load_display(std::string(preset.name)).value().summary == preset.summary);
     }
-    CHECK(display.panels[1].angle_deg - display.panels[0].angle_deg == 180.0);
-    CHECK(frame_bytes(display) == 360 * 2 * 128 * 64);
-    CHECK(geometry_digest(display) == 0x1e347c927c784f73u);
+}
+
+TEST_CASE("each preset has time for the bit planes that it shows, and for no more than it says") {
+    for (const Preset& preset : presets()) {
+        INFO(preset.name);
+        const auto display = load_display(std::string(preset.name)).value();
+        CHECK(scan_time_ns(display, shown_bit_planes(display)) <= slice_time_ns(display));
+        CHECK(fitting_bit_planes(display) == shown_bit_planes(display));
+    }
+}
+
+TEST_CASE("the presets have the sizes and rates of their displays") {
+    const auto is = [](const std::string& name, DisplayKind kind, PixelFormat format, std::uint32_t slices,
+                       double cycles_per_second, std::size_t bytes, std::uint64_t digest) {
+        INFO(name);
+        const auto display = load_display(name).value();
+        CHECK(display.kind == kind);
+        CHECK(display.format == format);
+        CHECK(display.slices == slices);
+        CHECK(display.cycles_per_second == cycles_per_second);
+        CHECK(frame_bytes(display) == bytes);
+        CHECK(geometry_digest(display) == digest);
+    };
+    using Kind = DisplayKind;
+    using Format = PixelFormat;
+    is("perspecta", Kind::RotatingPanel, Format::Rgb111, 198, 24, 198 * 768 * 768 / 8 * 3, 0xd94e17d7c5f7fee1u);
+    is("depthcube", Kind::StackedPlanes, Format::Rgb555, 20, 50, 20 * 748 * 1024 / 8 * 15, 0x597acceb7b335bb7u);
+    is("vx1", Kind::SweptPlane, Format::Mono1, 192, 15, 192 * 912 * 1140 / 8, 0xa90a1da2fb342582u);
+    is("vortex", Kind::RotatingPanel, Format::Rgb332, 360, 10, 360 * 2 * 128 * 64, 0xbcb7b724c2abe1fcu);
+    is("rotovox", Kind::RotatingPanel, Format::Rgb332, 360, 10, 360 * 2 * 128 * 64, 0x25cc093c536ccd92u);
+    is("candle", Kind::RotatingPanel, Format::Mono1, 24, 25, 24 * 10, 0x07b929e308fc732au);
+    is("cube8-595", Kind::StackedPlanes, Format::Mono1, 8, 100, 8 * 8, 0x30b04efd7cfc6d9eu);
+    is("cube16-ws2812", Kind::StackedPlanes, Format::Rgb888, 16, 60, 4096 * 3, 0xbd66feccf1eb8e57u);
+    is("cube20-ws2812", Kind::StackedPlanes, Format::Rgb888, 20, 60, 8000 * 3, 0x86d6a523378fec13u);
+}
+
+TEST_CASE("perspecta turns half a turn a frame") {
+    const auto display = load_display("perspecta").value();
+    CHECK(display.sweep_deg == 180.0);
+    CHECK(turns_per_second(display) == 12.0);
+}
+
+TEST_CASE("the panels of vortex stand back to back and those of rotovox side by side") {
+    const auto vortex = load_display("vortex").value();
+    REQUIRE(vortex.panel_count == 2);
+    CHECK(vortex.panels[1].angle_deg - vortex.panels[0].angle_deg == 180.0);
+    CHECK(vortex.panels[0].offset_mm > 0.0);
+    const auto rotovox = load_display("rotovox").value();
+    REQUIRE(rotovox.panel_count == 2);
+    for (std::size_t p = 0; p < 2; ++p) {
+        CHECK(rotovox.panels[p].turned % 2 == 1);
+        CHECK(std::abs(rotovox.panels[p].shift_mm) == 32 * rotovox.panels[p].row_pitch_mm);
+    }
+    CHECK(rotovox.panels[0].shift_mm == -rotovox.panels[1].shift_mm);
 }

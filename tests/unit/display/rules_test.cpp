@@ -24,6 +24,7 @@ DisplayDescription rotor() {
     DisplayDescription display = stack();
     display.kind = DisplayKind::RotatingPanel;
     display.panel_count = 2;
+    display.panels[0].offset_mm = 2;
     display.panels[1] = display.panels[0];
     display.panels[1].angle_deg = 180;
     return display;
@@ -78,8 +79,68 @@ TEST_CASE("each field of a description is checked") {
     display.panels[1].columns = 5000;
     CHECK_THAT(message(display), Contains("panel 2, columns: found 5000"));
     display = rotor();
-    display.panels[1].rows = 4;
-    CHECK_THAT(message(display), Contains("panel 2, rows: found 4; allowed: 3"));
+    display.panels[1].turned = 4;
+    CHECK_THAT(message(display), Contains("panel 2, turned: found 4; allowed: a whole number from 0 to 3"));
+    display = rotor();
+    display.panels[0].tilt_deg = 90;
+    CHECK_THAT(message(display), Contains("panel 1, tilt_deg: found 90"));
+    display = rotor();
+    display.panels[0].chain_position = 8;
+    CHECK_THAT(message(display), Contains("panel 1, chain_position: found 8"));
+    display = rotor();
+    display.sweep_deg = 90;
+    CHECK_THAT(message(display), Contains("sweep_deg: found 90; allowed: 360 or 180"));
+}
+
+TEST_CASE("each field of how a display is driven is checked") {
+    const auto refused = [](auto change) {
+        auto display = stack();
+        change(display);
+        return message(display);
+    };
+    using D = DisplayDescription;
+    CHECK_THAT(refused([](D& d) { d.sync.index = IndexSource{9}; }), Contains("sync.index: found number 9"));
+    CHECK_THAT(refused([](D& d) { d.sync.index_pulses = 0; }), Contains("sync.index_pulses: found 0"));
+    CHECK_THAT(refused([](D& d) { d.sync.index_phase = 1.0; }),
+               Contains("sync.index_phase: found 1; allowed: a number"));
+    CHECK_THAT(refused([](D& d) { d.sync.slowest_cycles_per_second = -1; }), Contains("slowest_cycles_per_second"));
+    CHECK_THAT(refused([](D& d) { d.sync.fastest_cycles_per_second = 1e9; }), Contains("fastest_cycles_per_second"));
+    CHECK_THAT(refused([](D& d) { d.scan.driver = DriverChip{9}; }), Contains("scan.driver: found number 9"));
+    CHECK_THAT(refused([](D& d) { d.scan.latch_ns = 2'000'000'000; }), Contains("scan.latch_ns: found 2000000000"));
+    CHECK_THAT(refused([](D& d) { d.scan.row_groups = 0; }), Contains("scan.row_groups: found 0"));
+    CHECK_THAT(refused([](D& d) { d.scan.bit_planes = 9; }), Contains("scan.bit_planes: found 9"));
+    CHECK_THAT(refused([](D& d) { d.scan.strings = 0; }), Contains("scan.strings: found 0"));
+    CHECK_THAT(refused([](D& d) { d.scan.planes_per_frame = 25; }), Contains("scan.planes_per_frame: found 25"));
+    CHECK_THAT(refused([](D& d) {
+                   d.scan.color_order = {'r', 'g', 'g'};
+               }),
+               Contains("scan.color_order: found \"rgg\""));
+    CHECK_THAT(refused([](D& d) { d.scan.color_order = {'r', '\n', 'b'}; }), Contains("found \"r?b\""));
+    CHECK_THAT(refused([](D& d) { d.power.led_ma = -1; }), Contains("power.led_ma: found -1"));
+    CHECK_THAT(refused([](D& d) { d.power.max_duty = 0; }), Contains("power.max_duty: found 0"));
+    CHECK_THAT(refused([](D& d) { d.power.limit_ma = std::nan(""); }), Contains("power.limit_ma: found nan"));
+}
+
+TEST_CASE("what belongs to another kind of display is refused") {
+    const auto refused = [](auto change) {
+        auto display = stack();
+        change(display);
+        return message(display);
+    };
+    using D = DisplayDescription;
+    CHECK_THAT(refused([](D& d) { d.sweep_deg = 180; }), Contains("sweep_deg: found 180; allowed: 360"));
+    CHECK_THAT(refused([](D& d) { d.blades = 2; }), Contains("blades: found 2; allowed: 1"));
+    CHECK_THAT(refused([](D& d) { d.motion.stroke_mm = 5; }), Contains("motion.stroke_mm: found 5; allowed: 0"));
+    CHECK_THAT(refused([](D& d) { d.motion.both_ways = true; }), Contains("motion.both_ways"));
+    CHECK_THAT(refused([](D& d) { d.motion.profile = MotionProfile::Sine; }), Contains("motion.profile"));
+    CHECK_THAT(refused([](D& d) { d.panels[0].turned = 1; }), Contains("panel 1, turned: found 1; allowed: 0"));
+    CHECK_THAT(refused([](D& d) { d.panels[0].mirrored = true; }), Contains("panel 1, mirrored: found true"));
+    static constexpr PointMm place[1] = {};
+    CHECK_THAT(refused([](D& d) { d.points = place; }), Contains("points: does not apply to stacked-planes"));
+    static constexpr double height[1] = {};
+    auto display = rotor();
+    display.plane_heights_mm = height;
+    CHECK_THAT(message(display), Contains("plane_heights_mm: does not apply to rotating-panel"));
 }
 
 TEST_CASE("the digest ignores name and speed and nothing else") {

@@ -5,16 +5,15 @@
 #include <vector>
 
 #include "driver/display/toml.h"
+#include "driver/host/pixel.h"
 #include "driver/host/slices.h"
 #include "tests/catch.h"
+#include "tests/displays.h"
 
 using namespace xorvox;
 using namespace xorvox::host;
 
 namespace {
-
-constexpr PixelFormat kFormats[] = {PixelFormat::Mono1, PixelFormat::Rgb111, PixelFormat::Rgb332, PixelFormat::Rgb565,
-                                    PixelFormat::Rgb888};
 
 /// Colours that tell where a point is; counts the points.
 class PlaceField final : public ColorField {
@@ -48,38 +47,6 @@ DisplayDescription odd_stack(PixelFormat format) {
     display.cycles_per_second = 60;
     display.panels[0] = {.columns = 5, .rows = 3, .column_pitch_mm = 2, .row_pitch_mm = 3};
     return display;
-}
-
-/// Two panels of different width; together wider than a word of the volume.
-DisplayDescription odd_rotor(PixelFormat format, bool clockwise = false) {
-    DisplayDescription display;
-    display.kind = DisplayKind::RotatingPanel;
-    display.format = format;
-    display.slices = 7;
-    display.cycles_per_second = 20;
-    display.clockwise = clockwise;
-    display.panel_count = 2;
-    display.panels[0] = {.columns = 61, .rows = 3, .column_pitch_mm = 2, .row_pitch_mm = 3, .offset_mm = 5};
-    display.panels[1] = {
-        .columns = 9, .rows = 3, .column_pitch_mm = 4, .row_pitch_mm = 3, .offset_mm = 3, .angle_deg = 170};
-    return display;
-}
-
-/// Where the LED is, from the drawing in description.h alone.
-glm::dvec3 led(const DisplayDescription& display, std::uint32_t slice, std::uint32_t p, std::uint32_t row,
-               std::uint32_t column) {
-    const Panel& panel = display.panels[p];
-    const double along = panel.shift_mm + (column - (panel.columns - 1) / 2.0) * panel.column_pitch_mm;
-    if (display.kind == DisplayKind::StackedPlanes) {
-        return {along, (row - (panel.rows - 1) / 2.0) * panel.row_pitch_mm,
-                (slice - (display.slices - 1) / 2.0) * display.plane_pitch_mm};
-    }
-    const double turn = 6.283185307179586;
-    const double phase = turn * (slice + 0.5) / display.slices;
-    const double theta = (display.clockwise ? -phase : phase) + panel.angle_deg / 360.0 * turn;
-    return {std::cos(theta) * along + std::sin(theta) * panel.offset_mm,
-            std::sin(theta) * along - std::cos(theta) * panel.offset_mm,
-            panel.lift_mm + ((panel.rows - 1) / 2.0 - row) * panel.row_pitch_mm};
 }
 
 /// The nearest sample, by looking at all of them.
@@ -118,6 +85,9 @@ std::uint32_t expected_code(const glm::vec3& color, PixelFormat format) {
         case PixelFormat::Mono1: return 1;
         case PixelFormat::Rgb111: return level(color.r, 1) | level(color.g, 1) << 1 | level(color.b, 1) << 2;
         case PixelFormat::Rgb332: return level(color.r, 7) << 5 | level(color.g, 7) << 2 | level(color.b, 3);
+        case PixelFormat::Rgb555: return level(color.r, 31) << 10 | level(color.g, 31) << 5 | level(color.b, 31);
+        case PixelFormat::Mono2: return level(0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b, 3);
+        case PixelFormat::Mono4: return level(0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b, 15);
         case PixelFormat::Rgb565: return level(color.r, 31) << 11 | level(color.g, 63) << 5 | level(color.b, 31);
         case PixelFormat::Rgb888: return level(color.r, 255) | level(color.g, 255) << 8 | level(color.b, 255) << 16;
     }
@@ -154,7 +124,7 @@ void check_against_reference(const DisplayDescription& display) {
             const Panel& panel = display.panels[p];
             for (std::uint32_t row = 0; row < panel.rows; ++row) {
                 for (std::uint32_t column = 0; column < panel.columns; ++column) {
-                    const glm::dvec3 place = led(display, slice, p, row, column);
+                    const glm::dvec3 place = test::drawn(display, slice, p, row, column);
                     const glm::uvec3 at = nearest_sample(lattice, place);
                     std::uint32_t expected = 0;
                     if (volume.test(at.x, at.y, at.z)) {
@@ -185,33 +155,65 @@ std::vector<std::byte> paint_all(const DisplayDescription& display, glm::vec3 co
 
 }  // namespace
 
-TEST_CASE("a frame of stacked planes is what the drawing says, in every format") {
-    for (const PixelFormat format : kFormats) {
-        INFO(std::string(to_string(format)));
-        check_against_reference(odd_stack(format));
+TEST_CASE("a frame of every kind of display is what the drawing says, in every format") {
+    for (DisplayDescription display : test::odd_displays()) {
+        for (const PixelFormat format : kPixelFormats) {
+            display.format = format;
+            INFO(std::string(display.name.view()) << ", " << std::string(to_string(format)));
+            check_against_reference(display);
+        }
     }
 }
 
-TEST_CASE("a frame of rotating panels is what the drawing says, in every format and both ways round") {
-    for (const PixelFormat format : kFormats) {
-        INFO(std::string(to_string(format)));
-        check_against_reference(odd_rotor(format));
-        check_against_reference(odd_rotor(format, true));
+TEST_CASE("a frame in one colour is the same whether the colour says so or is asked point by point") {
+    for (DisplayDescription display : test::odd_displays()) {
+        for (const PixelFormat format : kPixelFormats) {
+            display.format = format;
+            INFO(std::string(display.name.view()) << ", " << std::string(to_string(format)));
+            const FramePainter painter(display);
+            const BitVolume volume = random_volume(painter.lattice().view(), 3, 3);
+            std::vector<std::byte> asked(frame_bytes(display), std::byte{0x5a});
+            std::vector<std::byte> said(frame_bytes(display), std::byte{0xa5});
+            const auto color = parse_color("constant:#40c0f0").value();
+            REQUIRE(color->constant());
+            REQUIRE(painter.paint(volume.view(), OneColor(*color->constant()), asked) == Status::Ok);
+            REQUIRE(painter.paint(volume.view(), *color, said) == Status::Ok);
+            CHECK((asked == said));
+        }
+    }
+}
+
+TEST_CASE("slices that are painted one by one make the same frame, and touch no other slice") {
+    for (const DisplayDescription& display : test::odd_displays()) {
+        INFO(std::string(display.name.view()));
+        const FramePainter painter(display);
+        const BitVolume volume = random_volume(painter.lattice().view(), 5, 2);
+        const PlaceField field;
+        std::vector<std::byte> whole(frame_bytes(display));
+        REQUIRE(painter.paint(volume.view(), field, whole) == Status::Ok);
+        std::vector<std::byte> parts(whole.size(), std::byte{0x77});
+        for (std::uint32_t slice = display.slices; slice-- > 0;) {
+            for (std::size_t i = 0; i < slice * slice_bytes(display); ++i) REQUIRE(parts[i] == std::byte{0x77});
+            REQUIRE(painter.paint_slices(volume.view(), field, parts, slice, 1) == Status::Ok);
+        }
+        CHECK((parts == whole));
+        CHECK(painter.paint_slices(volume.view(), field, parts, display.slices, 1) == Status::InvalidArgument);
+        CHECK(painter.paint_slices(volume.view(), field, parts, 1, display.slices) == Status::InvalidArgument);
     }
 }
 
 TEST_CASE("an empty volume is dark and asks for no colour") {
-    const FramePainter painter(odd_rotor(PixelFormat::Rgb565));
+    const FramePainter painter(test::upright_rotor(false, false, 0));
     const BitVolume volume(painter.lattice().view());
     const PlaceField field;
-    std::vector<std::byte> frame(frame_bytes(odd_rotor(PixelFormat::Rgb565)), std::byte{0x55});
+    std::vector<std::byte> frame(frame_bytes(test::upright_rotor(false, false, 0)), std::byte{0x55});
     REQUIRE(painter.paint(volume.view(), field, frame) == Status::Ok);
     for (const std::byte byte : frame) REQUIRE(byte == std::byte{0});
     CHECK(field.asked == 0);
 }
 
 TEST_CASE("a set voxel of a faint colour is lit in its strong channels, in every format") {
-    for (const PixelFormat format : kFormats) {
+    for (const PixelFormat format : kPixelFormats) {
         INFO(std::string(to_string(format)));
         const auto display = odd_stack(format);
         const std::uint32_t bits = bits_per_pixel(format);
@@ -220,6 +222,7 @@ TEST_CASE("a set voxel of a faint colour is lit in its strong channels, in every
             switch (format) {
                 case PixelFormat::Rgb111: return red | green << 1 | blue << 2;
                 case PixelFormat::Rgb332: return red << 5 | green << 2 | blue;
+                case PixelFormat::Rgb555: return red << 10 | green << 5 | blue;
                 case PixelFormat::Rgb565: return red << 11 | green << 5 | blue;
                 case PixelFormat::Rgb888: return red | green << 8 | blue << 16;
                 default: return 1u;
@@ -251,7 +254,7 @@ TEST_CASE("faint grey stays grey, in every format") {
 }
 
 TEST_CASE("black is dark in every format") {
-    for (const PixelFormat format : kFormats) {
+    for (const PixelFormat format : kPixelFormats) {
         for (const glm::vec3 black : {glm::vec3(0), glm::vec3(-1), glm::vec3(NAN)}) {
             for (const std::byte byte : paint_all(odd_stack(format), black)) REQUIRE(byte == std::byte{0});
         }

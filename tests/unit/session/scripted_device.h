@@ -41,6 +41,15 @@ inline Bytes make_frame(const DisplayDescription& display, std::uint32_t number)
     return frame;
 }
 
+/// How a device is that has this fault and no other.
+inline wire::DeviceStatus faulty(wire::Fault fault) {
+    return {.blank = static_cast<std::uint8_t>(fault == wire::Fault::None ? 0 : 1),
+            .watchdog_ms = 2000,
+            .fault = fault,
+            .free_pages = 2,
+            .faults = wire::fault_bit(fault)};
+}
+
 struct Received {
     wire::Header header;
     Bytes payload;
@@ -118,7 +127,9 @@ public:
     /// Says who it is and, before it is asked, how it is.
     void greet(const wire::Hello& hello) {
         send(hello);
-        send(wire::DeviceStatus{.watchdog_ms = 2000, .fault = hello.fault, .free_pages = hello.free_pages});
+        wire::DeviceStatus status = faulty(hello.fault);
+        status.free_pages = hello.free_pages;
+        send(status);
     }
 
     void accept(const wire::FrameEnd& end, std::uint8_t free_pages = 1) {
@@ -152,10 +163,15 @@ struct Rig {
         now_ns += ns;
         return poll();
     }
-    /// Hello, answered.
-    void connect() {
+    /// The session asks who is there: what the device would say.
+    wire::Hello asked() {
         (void)poll();
-        device.greet(device.hello(device.receive_one().as<wire::HelloRequest>()));
+        return device.hello(device.receive_one().as<wire::HelloRequest>());
+    }
+    /// Hello, answered.
+    void connect() { connect_as(asked()); }
+    void connect_as(const wire::Hello& hello) {
+        device.greet(hello);
         (void)poll();
         REQUIRE(session.state() == SessionState::Ready);
     }
@@ -168,6 +184,13 @@ struct Rig {
         REQUIRE(packets.back().is(wire::PacketType::FrameEnd));
         return packets;
     }
+    /// The packets of a frame that is submitted now.
+    std::vector<Received> sent_frame(std::span<const std::byte> frame, std::uint64_t present_at_ns = 0) {
+        REQUIRE(session.submit(frame, present_at_ns) == Status::Ok);
+        return sent_frame();
+    }
+    std::vector<Received> sent_frame(std::uint32_t number) { return sent_frame(make_frame(display, number)); }
+
     bool error_says(const char* words) const { return session.error().message.find(words) != std::string::npos; }
 
     UniqueLink near;

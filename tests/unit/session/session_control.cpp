@@ -1,7 +1,10 @@
 // Controls and faults.
 
+#include <set>
+#include <string>
 #include <vector>
 
+#include "driver/host/faults.h"
 #include "tests/catch.h"
 #include "tests/unit/session/scripted_device.h"
 
@@ -68,7 +71,8 @@ TEST_CASE("values out of range are refused before anything is sent") {
     CHECK(rig.session.control(ControlOperation::Brightness, 256) == Status::InvalidArgument);
     CHECK(rig.session.control(ControlOperation::Blank, 2) == Status::InvalidArgument);
     CHECK(rig.session.control(ControlOperation::SilencePolicy, 2) == Status::InvalidArgument);
-    CHECK(rig.session.control(ControlOperation::ClearFault, 1) == Status::InvalidArgument);
+    CHECK(rig.session.control(ControlOperation::ClearFault, 0) == Status::InvalidArgument);
+    CHECK(rig.session.control(ControlOperation::ClearFault, 8) == Status::InvalidArgument);
     CHECK(rig.session.control(ControlOperation::Status, 1) == Status::InvalidArgument);
     CHECK(rig.session.control(static_cast<ControlOperation>(0), 0) == Status::InvalidArgument);
     CHECK(rig.session.control(static_cast<ControlOperation>(7), 0) == Status::InvalidArgument);
@@ -77,6 +81,8 @@ TEST_CASE("values out of range are refused before anything is sent") {
     CHECK(rig.session.control(ControlOperation::Blank, 1) == Status::Ok);
     CHECK(rig.session.control(ControlOperation::SilencePolicy, 1) == Status::Ok);
     CHECK(rig.session.control(ControlOperation::Watchdog, 0xffffffff) == Status::Ok);
+    CHECK(rig.session.control(ControlOperation::ClearFault, 1) == Status::Ok);
+    CHECK(rig.session.control(ControlOperation::ClearFault, 7) == Status::Ok);
 }
 
 TEST_CASE("a control that was sent twice and refused twice takes no other with it") {
@@ -133,7 +139,7 @@ TEST_CASE("a blank is confirmed by a status without fault that shows it, and by 
     (void)rig.poll();
     CHECK(rig.device.receive_one().as<Control>().value == value);
     rig.device.send(DeviceStatus{.blank = other, .watchdog_ms = 2000, .free_pages = 2});
-    rig.device.send(DeviceStatus{.blank = 1, .watchdog_ms = 2000, .fault = Fault::Scan, .free_pages = 2});
+    rig.device.send(faulty(Fault::Stall));
     (void)rig.poll();
     CHECK_FALSE(rig.session.idle());
     SECTION("in the end it is") {
@@ -149,7 +155,7 @@ TEST_CASE("a blank is confirmed by a status without fault that shows it, and by 
         for (int i = 0; i < 100 && !rig.session.idle(); ++i) {
             (void)rig.poll_after(500 * kMs);
             for (const Received& packet : rig.device.receive()) sent += packet.is(PacketType::Control) ? 1 : 0;
-            rig.device.send(DeviceStatus{.blank = 1, .fault = Fault::Scan, .free_pages = 2});
+            rig.device.send(faulty(Fault::Stall));
             (void)rig.poll();
         }
         CHECK(rig.session.idle());
@@ -163,12 +169,12 @@ TEST_CASE("a blank that a fault masks lets the clearing of the fault pass, and i
     rig.connect();
     const auto operation = [&] { return rig.device.receive_one().as<Control>().operation; };
     const bool silent = GENERATE(true, false);
-    const Fault fault = silent ? Fault::SilentHost : Fault::Scan;
+    const Fault fault = silent ? Fault::SilentHost : Fault::Stall;
     REQUIRE(rig.session.control(ControlOperation::Blank, 0) == Status::Ok);
-    if (!silent) REQUIRE(rig.session.control(ControlOperation::ClearFault, 0) == Status::Ok);
+    if (!silent) REQUIRE(rig.session.control(ControlOperation::ClearFault, 4) == Status::Ok);
     (void)rig.poll();
     CHECK(operation() == ControlOperation::Blank);
-    rig.device.send(DeviceStatus{.blank = 1, .fault = fault, .free_pages = 2});
+    rig.device.send(faulty(fault));
     (void)rig.poll();
     CHECK(operation() == ControlOperation::ClearFault);
     rig.device.send(DeviceStatus{.blank = 1, .free_pages = 2});
@@ -185,14 +191,13 @@ TEST_CASE("a masked blank does not come after a later one") {
     rig.connect();
     REQUIRE(rig.session.control(ControlOperation::Blank, 1) == Status::Ok);
     REQUIRE(rig.session.control(ControlOperation::Blank, 0) == Status::Ok);
-    REQUIRE(rig.session.control(ControlOperation::ClearFault, 0) == Status::Ok);
+    REQUIRE(rig.session.control(ControlOperation::ClearFault, 4) == Status::Ok);
     std::vector<Control> sent;
-    DeviceStatus status{.blank = 1, .watchdog_ms = 2000, .fault = Fault::Scan, .free_pages = 2};
+    DeviceStatus status = faulty(Fault::Stall);
     for (int i = 0; i < 10 && !rig.session.idle(); ++i) {
         (void)rig.poll();
         sent.push_back(rig.device.receive_one().as<Control>());
-        if (sent.back().operation == ControlOperation::ClearFault) status.fault = Fault::None;
-        if (status.fault == Fault::None) status.blank = 0;
+        if (sent.back().operation == ControlOperation::ClearFault) status = faulty(Fault::None);
         rig.device.send(status);
         (void)rig.poll_after(0);
     }
@@ -206,9 +211,9 @@ TEST_CASE("a masked blank does not come after a later one") {
 
 TEST_CASE("of the faults in hello only a silent host's is cleared, and all can be read") {
     Rig rig;
-    (void)rig.poll();
-    Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
-    hello.fault = GENERATE(Fault::SilentHost, Fault::Scan, static_cast<Fault>(3));
+    Hello hello = rig.asked();
+    hello.fault = GENERATE(Fault::SilentHost, Fault::LateScan, Fault::Interlock, static_cast<Fault>(31),
+                           static_cast<Fault>(32), static_cast<Fault>(255));
     rig.device.send(hello);
     (void)rig.poll();
     CHECK(rig.session.device().fault == hello.fault);
@@ -226,44 +231,75 @@ TEST_CASE("of the faults in hello only a silent host's is cleared, and all can b
     CHECK(rig.session.device_status().fault == hello.fault);
 }
 
-TEST_CASE("the fault of a silent host is cleared when the host is back, a scanner's only by command") {
+TEST_CASE("the fault of a silent host is cleared by its number when the host is back, others only by command") {
     Rig rig;
     rig.connect();
-    rig.device.send(DeviceStatus{.fault = Fault::Scan, .free_pages = 2});
+    const auto fault =
+        GENERATE(Fault::LateScan, Fault::LostIndex, Fault::Stall, Fault::Overspeed, Fault::Reversed, Fault::Interlock);
+    rig.device.send(faulty(fault));
     (void)rig.poll();
     CHECK(rig.device.receive().empty());
-    rig.device.send(DeviceStatus{.fault = Fault::SilentHost, .free_pages = 2});
-    rig.device.send(DeviceStatus{.fault = Fault::SilentHost, .free_pages = 2});
+    DeviceStatus both = faulty(fault);
+    both.faults |= fault_bit(Fault::SilentHost);
+    rig.device.send(both);
+    rig.device.send(both);
     (void)rig.poll();
-    CHECK(rig.device.receive_one().as<Control>().operation == ControlOperation::ClearFault);
-    SECTION("once") {
-        rig.device.send(DeviceStatus{.free_pages = 2});
-        (void)rig.poll();
-        CHECK(rig.session.idle());
+    const auto cleared = [&] {
+        const auto control = rig.device.receive_one().as<Control>();
+        CHECK(control.operation == ControlOperation::ClearFault);
+        return static_cast<Fault>(control.value);
+    };
+    CHECK(cleared() == Fault::SilentHost);
+    rig.device.send(faulty(fault));
+    (void)rig.poll();
+    CHECK(rig.session.idle());
+    for (int i = 0; i < 5; ++i) {
+        (void)rig.poll_after(500 * kMs);
+        CHECK(rig.device.receive_one().is(PacketType::Ping));
+        rig.device.send(Pong{});
     }
-    SECTION("not again after the scanner's came, until somebody commands it") {
-        rig.device.send(DeviceStatus{.fault = Fault::Scan, .free_pages = 2});
+    REQUIRE(rig.session.control(ControlOperation::ClearFault, static_cast<std::uint32_t>(fault)) == Status::Ok);
+    (void)rig.poll();
+    CHECK(cleared() == fault);
+    rig.device.send(faulty(fault));
+    (void)rig.poll();
+    CHECK_FALSE(rig.session.idle());
+    CHECK(rig.session.device_status().fault == fault);
+    rig.device.send(faulty(Fault::None));
+    (void)rig.poll();
+    CHECK(rig.session.idle());
+}
+
+TEST_CASE("a command to clear a fault does not stand for the clearing of another") {
+    Rig rig;
+    rig.connect();
+    REQUIRE(rig.session.control(ControlOperation::ClearFault, 4) == Status::Ok);
+    DeviceStatus both = faulty(Fault::Stall);
+    both.faults |= fault_bit(Fault::SilentHost);
+    rig.device.send(both);
+    std::vector<std::uint32_t> cleared;
+    for (int i = 0; i < 10 && (cleared.empty() || !rig.session.idle()); ++i) {
         (void)rig.poll();
-        CHECK(rig.session.idle());
-        for (int i = 0; i < 5; ++i) {
-            (void)rig.poll_after(500 * kMs);
-            CHECK(rig.device.receive_one().is(PacketType::Ping));
-            rig.device.send(Pong{});
-        }
-        REQUIRE(rig.session.control(ControlOperation::ClearFault, 0) == Status::Ok);
-        (void)rig.poll();
-        CHECK(rig.device.receive_one().as<Control>().operation == ControlOperation::ClearFault);
-        rig.device.send(DeviceStatus{.fault = Fault::Scan, .free_pages = 2});
-        (void)rig.poll();
-        CHECK_FALSE(rig.session.idle());
-        CHECK(rig.session.device_status().fault == Fault::Scan);
+        cleared.push_back(rig.device.receive_one().as<Control>().value);
+        both.faults &= ~(1u << cleared.back());
+        rig.device.send(both);
+        (void)rig.poll_after(0);
     }
+    CHECK(cleared == std::vector<std::uint32_t>{4, 1});
+}
+
+TEST_CASE("every fault has words of its own for the user, and an unknown one too") {
+    std::set<std::string> texts;
+    for (unsigned number = 0; number <= kHighestFault + 1u; ++number) {
+        texts.insert(describe(static_cast<Fault>(number)));
+    }
+    CHECK(texts.size() == kHighestFault + 2u);
+    CHECK(std::string(describe(Fault::Stall)).find("clear fault 4") != std::string::npos);
 }
 
 TEST_CASE("the device is asked how it is after hello, again until it answers") {
     Rig rig;
-    (void)rig.poll();
-    rig.device.send(rig.device.hello(rig.device.receive_one().as<HelloRequest>()));
+    rig.device.send(rig.asked());
     (void)rig.poll();
     CHECK(rig.device.receive_one().as<Control>().operation == ControlOperation::Status);
     CHECK(rig.session.idle());
@@ -307,8 +343,7 @@ TEST_CASE("a ping comes every quarter of the watchdog, as the last status gave i
 TEST_CASE("a lost presented is made up for by asking what is shown") {
     Rig rig;
     rig.connect();
-    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-    const auto end = rig.sent_frame().back().as<FrameEnd>();
+    const auto end = rig.sent_frame(1).back().as<FrameEnd>();
     rig.device.accept(end);
     (void)rig.poll();
     CHECK(rig.device.receive().empty());

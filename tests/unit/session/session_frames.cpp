@@ -57,8 +57,7 @@ TEST_CASE("frames of another size are refused") {
 
 TEST_CASE("without a free page no frame is taken or sent, and the device is asked") {
     Rig rig;
-    (void)rig.poll();
-    Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
+    Hello hello = rig.asked();
     hello.free_pages = 0;
     if (GENERATE(false, true)) {
         rig.device.greet(hello);
@@ -81,8 +80,7 @@ TEST_CASE("without a free page no frame is taken or sent, and the device is aske
 TEST_CASE("a frame for which no page ever becomes free is given up with a reason") {
     Rig rig;
     REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-    (void)rig.poll();
-    Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
+    Hello hello = rig.asked();
     hello.free_pages = 0;
     rig.device.greet(hello);
     Status status = rig.poll();
@@ -100,11 +98,9 @@ TEST_CASE("a frame for which no page ever becomes free is given up with a reason
 TEST_CASE("a session that failed for want of a page stays so, also when the device is silent") {
     Rig rig;
     REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-    (void)rig.poll();
-    Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
+    Hello hello = rig.asked();
     hello.free_pages = 0;
-    rig.device.greet(hello);
-    (void)rig.poll();
+    rig.connect_as(hello);
     (void)rig.poll_after(500 * kMs);
     CHECK(rig.poll_after(5000 * kMs) == Status::Closed);
     CHECK(rig.session.state() == SessionState::Failed);
@@ -114,12 +110,10 @@ TEST_CASE("a session that failed for want of a page stays so, also when the devi
 TEST_CASE("a refused frame is sent again as a keyframe with another id") {
     Rig rig;
     rig.connect();
-    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-    rig.device.accept(rig.sent_frame().back().as<FrameEnd>());
+    rig.device.accept(rig.sent_frame(1).back().as<FrameEnd>());
     (void)rig.poll();
     const Bytes frame = make_frame(rig.display, 2);
-    REQUIRE(rig.session.submit(frame) == Status::Ok);
-    const auto delta = rig.sent_frame();
+    const auto delta = rig.sent_frame(frame);
     REQUIRE(delta.front().as<FrameBegin>().flags == kFrameDelta);
     const std::uint32_t id = delta.front().as<FrameBegin>().frame;
     const auto reason = GENERATE(NackReason::NeedKeyframe, NackReason::Gap, NackReason::BadCrc);
@@ -139,8 +133,7 @@ TEST_CASE("a refused frame is sent again as a keyframe with another id") {
 TEST_CASE("a frame refused for want of a page waits for one") {
     Rig rig;
     rig.connect();
-    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-    const auto id = rig.sent_frame().front().as<FrameBegin>().frame;
+    const auto id = rig.sent_frame(1).front().as<FrameBegin>().frame;
     rig.device.send(Nack{.reason = NackReason::NoPage, .frame = id, .free_pages = 0});
     (void)rig.poll();
     CHECK(rig.device.receive().empty());
@@ -170,8 +163,7 @@ TEST_CASE("a frame refused every time is given up, saying why") {
 TEST_CASE("a frame that the device takes for another display's is given up at once, saying so") {
     Rig rig;
     rig.connect();
-    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-    const auto id = rig.sent_frame().front().as<FrameBegin>().frame;
+    const auto id = rig.sent_frame(1).front().as<FrameBegin>().frame;
     rig.device.send(Nack{.reason = NackReason::BadFrame, .frame = id, .free_pages = 1});
     CHECK(rig.poll() == Status::Refused);
     CHECK(rig.session.state() == SessionState::Failed);
@@ -184,8 +176,7 @@ TEST_CASE("a frame without an answer is sent again as a keyframe") {
     Rig rig;
     rig.connect();
     const Bytes frame = make_frame(rig.display, 1);
-    REQUIRE(rig.session.submit(frame) == Status::Ok);
-    const auto first = rig.sent_frame();
+    const auto first = rig.sent_frame(frame);
     (void)rig.poll_after(499 * kMs);
     CHECK(rig.device.receive().empty());
     rig.now_ns += kMs;
@@ -205,21 +196,18 @@ TEST_CASE("a frame without an answer is sent again as a keyframe") {
         (void)rig.poll();
         CHECK(rig.session.idle());
         CHECK(rig.session.statistics().frames_accepted == 1);
-        REQUIRE(rig.session.submit(make_frame(rig.display, 2)) == Status::Ok);
-        CHECK(rig.sent_frame().front().as<FrameBegin>().flags == 0);
+        CHECK(rig.sent_frame(2).front().as<FrameBegin>().flags == 0);
     }
 }
 
 TEST_CASE("answers that are late, repeated, of others or do not fit change nothing") {
     Rig rig;
     rig.connect();
-    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-    const auto first = rig.sent_frame().back().as<FrameEnd>();
+    const auto first = rig.sent_frame(1).back().as<FrameEnd>();
     rig.device.accept(first);
     const std::uint32_t accepted_at = rig.device.next_sequence - 1;
     (void)rig.poll();
-    REQUIRE(rig.session.submit(make_frame(rig.display, 2)) == Status::Ok);
-    const auto second = rig.sent_frame().back().as<FrameEnd>();
+    const auto second = rig.sent_frame(2).back().as<FrameEnd>();
     const Acknowledge right{
         .stage = AckStage::Accepted, .frame = second.frame, .page_crc = second.page_crc, .free_pages = 1};
 
@@ -252,8 +240,7 @@ TEST_CASE("answers that are late, repeated, of others or do not fit change nothi
 TEST_CASE("presented stands for accepted where that was lost") {
     Rig rig;
     rig.connect();
-    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
-    const auto end = rig.sent_frame().back().as<FrameEnd>();
+    const auto end = rig.sent_frame(1).back().as<FrameEnd>();
     rig.device.send(
         Acknowledge{.stage = AckStage::Presented, .frame = end.frame, .page_crc = end.page_crc, .free_pages = 1});
     (void)rig.poll();
@@ -268,8 +255,7 @@ TEST_CASE("deltas are based on the last accepted frame") {
     std::uint32_t base_id = 0;
     for (std::uint32_t i = 1; i <= 5; ++i) {
         const Bytes frame = make_frame(rig.display, i);
-        REQUIRE(rig.session.submit(frame) == Status::Ok);
-        const auto packets = rig.sent_frame();
+        const auto packets = rig.sent_frame(frame);
         const auto begin = packets.front().as<FrameBegin>();
         CHECK(begin.flags == (i == 1 ? 0 : kFrameDelta));
         if (i > 1) CHECK(begin.base == base_id);
@@ -287,14 +273,11 @@ TEST_CASE("no deltas where the host or the device does not want them") {
     SessionOptions options;
     options.deltas = !by_host;
     Rig rig(options);
-    (void)rig.poll();
-    Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
+    Hello hello = rig.asked();
     if (!by_host) hello.features = 0;
-    rig.device.greet(hello);
-    (void)rig.poll();
+    rig.connect_as(hello);
     for (std::uint32_t i = 1; i <= 3; ++i) {
-        REQUIRE(rig.session.submit(make_frame(rig.display, i)) == Status::Ok);
-        const auto packets = rig.sent_frame();
+        const auto packets = rig.sent_frame(i);
         CHECK(packets.front().as<FrameBegin>().flags == 0);
         rig.device.accept(packets.back().as<FrameEnd>());
         (void)rig.poll();
@@ -303,15 +286,12 @@ TEST_CASE("no deltas where the host or the device does not want them") {
 
 TEST_CASE("chunks are raw where the device knows nothing else, and fit its packets") {
     Rig rig;
-    (void)rig.poll();
-    Hello hello = rig.device.hello(rig.device.receive_one().as<HelloRequest>());
+    Hello hello = rig.asked();
     hello.codecs = 1;
     hello.max_packet_bytes = 256;
-    rig.device.greet(hello);
-    (void)rig.poll();
+    rig.connect_as(hello);
     const Bytes frame = make_frame(rig.display, 1);
-    REQUIRE(rig.session.submit(frame) == Status::Ok);
-    const auto packets = rig.sent_frame();
+    const auto packets = rig.sent_frame(frame);
     CHECK(decode_frame(packets) == frame);
     for (std::size_t i = 1; i + 1 < packets.size(); ++i) {
         CHECK(packets[i].as<Chunk>().codec == Codec::Raw);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "driver/host/stream.h"
 #include "tests/catch.h"
 #include "tests/unit/session/scripted_device.h"
 #include "transport/file.h"
@@ -57,6 +58,41 @@ TEST_CASE("a recording has a hello and keyframes, and a reader gets them back") 
         frame.clear();
     }
     CHECK(number == 3);
+    std::filesystem::remove(path);
+}
+
+TEST_CASE("a stream into a recording hands over every frame, in order, and waits for nobody") {
+    const auto path = std::filesystem::temp_directory_path() / fmt::format("xorvox-stream-{}.xvr", ::getpid());
+    const DisplayDescription display = small_display();
+    {
+        const auto writer = transport::open_file_writer(path.string());
+        REQUIRE(writer);
+        Session session(writer->get(), display);
+        FrameStream stream(session, display, {.period_ns = 20 * kMs});
+        std::uint32_t number = 0;
+        for (int i = 0; i < 1000 && (number < 5 || !stream.idle()); ++i) {
+            if (number < 5 && stream.has_room()) REQUIRE(stream.offer(make_frame(display, number++)) == Status::Ok);
+            (void)stream.poll(0);
+        }
+        CHECK(stream.idle());
+        CHECK(stream.statistics().sent == 5);
+        CHECK(stream.statistics().presented == 0);
+        REQUIRE(transport::commit_file(writer->get()));
+    }
+    auto reader = transport::open_file_reader(path.string());
+    REQUIRE(reader);
+    ScriptedDevice device(std::move(*reader));
+    std::uint32_t number = 0;
+    std::vector<Received> frame;
+    for (Received& packet : device.receive()) {
+        if (packet.is(PacketType::HelloRequest)) continue;
+        frame.push_back(std::move(packet));
+        if (!frame.back().is(PacketType::FrameEnd)) continue;
+        CHECK(frame.front().as<FrameBegin>().present_at_ns == 0);
+        CHECK(decode_frame(frame) == make_frame(display, number++));
+        frame.clear();
+    }
+    CHECK(number == 5);
     std::filesystem::remove(path);
 }
 

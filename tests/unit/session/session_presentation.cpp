@@ -47,8 +47,9 @@ struct Stage : Rig {
             for (const Received& packet : device.receive()) {
                 if (packet.is(PacketType::Ping)) device.send(Pong{.device_time_ns = device_time_ns()});
                 if (!packet.is(PacketType::Control)) continue;
-                device.send(DeviceStatus{
-                    .watchdog_ms = 2000, .fault = fault, .free_pages = 1, .device_time_ns = device_time_ns()});
+                DeviceStatus status = faulty(fault);
+                status.device_time_ns = device_time_ns();
+                device.send(status);
             }
         }
         return passed_ms;
@@ -79,14 +80,14 @@ TEST_CASE("a display that accepts a frame and never shows it fails, saying so") 
     CHECK(ms <= 10'100);
 }
 
-TEST_CASE("a scanner that reports a fault is named as the cause") {
+TEST_CASE("a fault that keeps frames from being shown is named as the cause") {
     Stage stage;
     stage.now_ns = kStartNs;
     stage.connect();
-    stage.fault = Fault::Scan;
+    stage.fault = Fault::Stall;
     (void)stage.accepted(1);
     (void)stage.answer_for(60'000);
-    CHECK(stage.error_says("it reports a fault of its scanner"));
+    CHECK(stage.error_says("its rotor stands or turns too slowly"));
 }
 
 TEST_CASE("how long a frame may wait to be shown is the caller's choice") {

@@ -70,4 +70,46 @@ constexpr DisplayDescription rotor_of(std::uint16_t columns, std::uint16_t rows,
     return display;
 }
 
+/// A plane that sweeps 60 mm, with pixels 2 mm wide and 3 mm deep.
+constexpr DisplayDescription swept_of(std::uint16_t columns, std::uint16_t rows, std::uint32_t slices,
+                                      MotionProfile profile, PixelFormat format = PixelFormat::Mono1) {
+    DisplayDescription display = stack_of(columns, rows, slices, format);
+    display.name = DisplayName("swept");
+    display.kind = DisplayKind::SweptPlane;
+    display.cycles_per_second = 15.0;
+    display.motion.stroke_mm = 60.0;
+    display.motion.profile = profile;
+    if (profile == MotionProfile::Table) {
+        constexpr double kHeights[] = {0.0, 0.1, 0.5, 1.0};
+        display.motion.table_size = 4;
+        for (std::size_t i = 0; i < 4; ++i) display.motion.table[i] = kHeights[i];
+    }
+    return display;
+}
+
+/// A helix 40 mm high under pixels of 2 mm by 3 mm.
+constexpr DisplayDescription helix_of(std::uint16_t columns, std::uint16_t rows, std::uint32_t slices,
+                                      std::uint32_t blades, PixelFormat format = PixelFormat::Mono1) {
+    DisplayDescription display = stack_of(columns, rows, slices, format);
+    display.name = DisplayName("helix");
+    display.kind = DisplayKind::Helix;
+    display.motion.stroke_mm = 40.0;
+    display.blades = blades;
+    return display;
+}
+
+/// Points in no order. Two of them are at one place.
+inline constexpr PointMm kPoints[] = {{3.0, 4.0, 5.0},   {-3.5, 1.25, 0.0}, {0.0, 0.0, 9.0},    {3.0, 4.0, -5.0},
+                                      {-7.0, -2.0, 1.5}, {8.5, -6.0, 2.0},  {-3.5, 1.25, -0.5}, {1.0, 2.0, 3.0},
+                                      {6.0, 6.0, -6.0},  {0.0, 0.0, 9.0}};
+
+/// Free points, five on each of two strings.
+constexpr DisplayDescription points_of(PixelFormat format = PixelFormat::Mono1) {
+    DisplayDescription display = stack_of(5, 2, 1, format);
+    display.name = DisplayName("points");
+    display.kind = DisplayKind::FreePoints;
+    display.points = kPoints;
+    return display;
+}
+
 }  // namespace xorvox::test

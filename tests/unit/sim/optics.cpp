@@ -1,5 +1,6 @@
 #include "sim/optics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -74,6 +75,150 @@ TEST_CASE("a panel's shift, lift and mounting angle move its light") {
     check_place(only_flash(display, {.column = 2}).place_mm, 12.0, -3.0, 50.0);
 }
 
+TEST_CASE("a panel that leans, with its odd columns farther out") {
+    DisplayDescription display = rotor_of(3, 2, 1, PixelFormat::Mono1, 1);  // lit around 180 degrees
+    Panel& panel = display.panels[0];
+    panel.tilt_deg = 30.0;
+    panel.skew_mm = 0.5;
+    panel.lift_mm = 7.0;
+    // u = (-1, 0), n = (0, 1). Rows are 2 mm above and below the centre: 1 mm towards who looks, and sqrt(3) mm up.
+    const double up = std::sqrt(3.0);
+    check_place(only_flash(display, {.row = 0, .column = 0}).place_mm, 2.0, 4.0, 7.0 + up);
+    check_place(only_flash(display, {.row = 1, .column = 0}).place_mm, 2.0, 2.0, 7.0 - up);
+    check_place(only_flash(display, {.row = 0, .column = 1}).place_mm, 0.0, 4.5, 7.0 + up);
+    check_place(only_flash(display, {.row = 1, .column = 2}).place_mm, -2.0, 2.0, 7.0 - up);
+}
+
+TEST_CASE("a mounted panel is mirrored first and turned then") {
+    DisplayDescription display = rotor_of(5, 2, 1, PixelFormat::Mono1, 1);
+    Panel& panel = display.panels[0];
+    panel.angle_deg = 180.0;  // and 180 by the phase: columns along +x, who looks stands at -y
+    const Pixel pixel{.row = 0, .column = 4};
+    struct Case {
+        bool mirrored;
+        std::uint8_t turned;
+        double x;
+        double z;
+    };
+    const Case cases[] = {{false, 0, 4.0, 2.0}, {false, 1, -2.0, 4.0}, {false, 2, -4.0, -2.0}, {false, 3, 2.0, -4.0},
+                          {true, 0, -4.0, 2.0}, {true, 1, -2.0, -4.0}, {true, 2, 4.0, -2.0},   {true, 3, 2.0, 4.0}};
+    for (const Case& mounted : cases) {
+        INFO(mounted.mirrored << " " << int{mounted.turned});
+        panel.mirrored = mounted.mirrored;
+        panel.turned = mounted.turned;
+        check_place(only_flash(display, pixel).place_mm, mounted.x, -3.0, mounted.z);
+    }
+}
+
+TEST_CASE("the skew of a mirrored panel stays with its odd columns") {
+    DisplayDescription display = rotor_of(4, 1, 1, PixelFormat::Mono1, 1);
+    display.panels[0].angle_deg = 180.0;
+    display.panels[0].mirrored = true;
+    display.panels[0].skew_mm = 0.25;
+    check_place(only_flash(display, {.column = 0}).place_mm, 3.0, -3.0, 0.0);
+    check_place(only_flash(display, {.column = 1}).place_mm, 1.0, -3.25, 0.0);
+}
+
+TEST_CASE("the frame of a half turn is lit in half a turn") {
+    DisplayDescription display = rotor_of(3, 1, 2, PixelFormat::Mono1, 1);
+    display.sweep_deg = 180.0;
+    display.panels[0].offset_mm = 0.0;
+    const double h = std::sqrt(2.0);
+    check_place(only_flash(display, {.slice = 0, .column = 2}).place_mm, h, h, 0.0);
+    check_place(only_flash(display, {.slice = 1, .column = 2}).place_mm, -h, h, 0.0);
+}
+
+TEST_CASE("the planes of an uneven stack stand at their heights") {
+    constexpr double kHeights[] = {-5.0, 1.0, 2.5};
+    DisplayDescription display = stack_of(3, 2, 3);
+    display.plane_heights_mm = kHeights;
+    for (std::uint32_t plane = 0; plane < 3; ++plane) {
+        check_place(only_flash(display, {.slice = plane, .column = 2}).place_mm, 2.0, -1.5, kHeights[plane]);
+    }
+    CHECK(sim::plane_height_mm(display, -0.5) == Approx(-8.0));
+    CHECK(sim::plane_height_mm(display, 1.5) == Approx(1.75));
+    CHECK(sim::plane_height_mm(display, 2.5) == Approx(3.25));
+}
+
+TEST_CASE("a swept plane is as high as its motion says in the middle of each slice") {
+    const auto height = [](const DisplayDescription& display, std::uint32_t slice) {
+        const sim::Flash flash = only_flash(display, {.slice = slice, .row = 1, .column = 2});
+        CHECK(flash.time == slice);
+        CHECK(flash.place_mm.x == 2.0);
+        CHECK(flash.place_mm.y == 1.5);
+        return flash.place_mm.z;
+    };
+    DisplayDescription constant = swept_of(3, 2, 3, MotionProfile::Constant);  // 60 mm in three slices
+    CHECK(height(constant, 0) == Approx(-20.0));
+    CHECK(height(constant, 2) == Approx(20.0));
+    constant.motion.dead_zone = 0.25;  // 30 mm of them are lit
+    CHECK(height(constant, 0) == Approx(-10.0));
+    CHECK(height(constant, 1) == Approx(0.0).margin(1e-12));
+    constant.motion.both_ways = true;
+    CHECK(height(constant, 2) == Approx(10.0));
+
+    const DisplayDescription sine = swept_of(3, 2, 3, MotionProfile::Sine);  // at 30, 90 and 150 degrees
+    CHECK(height(sine, 0) == Approx(-15.0 * std::sqrt(3.0)));
+    CHECK(height(sine, 1) == Approx(0.0).margin(1e-12));
+    CHECK(height(sine, 2) == Approx(15.0 * std::sqrt(3.0)));
+
+    // Heights 0, 0.1, 0.5, 1 at thirds of the sweep; slices at 1/4 and 3/4 of it.
+    const DisplayDescription table = swept_of(3, 2, 2, MotionProfile::Table);
+    CHECK(height(table, 0) == Approx(60.0 * (0.075 - 0.5)));
+    CHECK(height(table, 1) == Approx(60.0 * (0.625 - 0.5)));
+}
+
+TEST_CASE("a helix is as high as its screen where the image meets it") {
+    // Pixels at x = -2, 0, 2 and y = -3, 0, 3. One blade of 40 mm; in slice 0 of 4 it has turned by an eighth.
+    const auto height = [](const DisplayDescription& display, std::uint32_t slice, std::uint32_t row,
+                           std::uint32_t column) {
+        const glm::dvec3 place = only_flash(display, {.slice = slice, .row = row, .column = column}).place_mm;
+        CHECK(place.x == 2.0 * column - 2.0);
+        CHECK(place.y == 3.0 * row - 3.0);
+        return place.z;
+    };
+    DisplayDescription display = helix_of(3, 3, 4, 1);
+    CHECK(height(display, 0, 2, 1) == Approx(40.0 * (0.25 - 0.125) - 20.0));        // at 90 degrees
+    CHECK(height(display, 1, 2, 1) == Approx(40.0 * (0.25 - 0.375 + 1.0) - 20.0));  // the foot has passed
+    CHECK(height(display, 3, 0, 1) == Approx(40.0 * (0.75 - 0.875 + 1.0) - 20.0));  // at 270 degrees
+    CHECK(height(display, 0, 1, 1) == Approx(40.0 * (0.0 - 0.125 + 1.0) - 20.0));   // on the axis: as along +x
+    display.clockwise = true;
+    CHECK(height(display, 0, 2, 1) == Approx(40.0 * (0.25 + 0.125) - 20.0));
+    CHECK(height(display, 3, 2, 1) == Approx(40.0 * (0.25 + 0.875 - 1.0) - 20.0));
+    display = helix_of(3, 3, 4, 2);
+    CHECK(height(display, 0, 2, 1) == Approx(40.0 * (0.5 - 0.125) - 20.0));
+    CHECK(height(display, 0, 1, 0) == Approx(40.0 * (1.0 - 0.125) - 20.0));  // at 180 degrees: the second one
+}
+
+TEST_CASE("where a helix ends exactly over a pixel, light is at its foot") {
+    // Two slices: the screen has turned by a quarter in the first. Above the pixels at 90 degrees it ends.
+    DisplayDescription display = helix_of(3, 3, 2, 1);
+    CHECK(only_flash(display, {.slice = 0, .row = 2, .column = 1}).place_mm.z == Approx(-20.0));
+    // And at all eight octants of a square image.
+    display = helix_of(9, 9, 12, 3);
+    display.panels[0].row_pitch_mm = 2.0;
+    display.slices = 4;  // φ of 1/8, 3/8 …; 3·α of 3/8, 9/8 … at the diagonals
+    for (std::uint32_t slice = 0; slice < 4; ++slice) {
+        for (std::uint32_t i = 0; i < 9; ++i) {
+            for (const std::uint32_t column : {i, 8 - i}) {
+                const double z = only_flash(display, {.slice = slice, .row = i, .column = column}).place_mm.z;
+                CHECK(z < 20.0 - 1e-6);
+                CHECK(z > -20.0 - 1e-6);
+            }
+        }
+    }
+}
+
+TEST_CASE("free points are lit where they are, row after row") {
+    const DisplayDescription display = points_of();
+    for (std::uint32_t row = 0; row < 2; ++row) {
+        for (std::uint32_t column = 0; column < 5; ++column) {
+            const PointMm& point = kPoints[5 * row + column];
+            check_place(only_flash(display, {.row = row, .column = column}).place_mm, point.x, point.y, point.z);
+        }
+    }
+}
+
 TEST_CASE("pixels are read from their bits in every format") {
     struct Case {
         PixelFormat format;
@@ -85,6 +230,15 @@ TEST_CASE("pixels are read from their bits in every format") {
         {"mono1", {PixelFormat::Mono1, {0b110}, {0, 1, 1}, {{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}}},
         // Pixel 0 blue, 1 red and green, 2 red and blue; the last one in bits 6, 7 and 8.
         {"rgb111", {PixelFormat::Rgb111, {0b01'011'100, 0b1}, {4, 3, 5}, {{0, 0, 1}, {1, 1, 0}, {1, 0, 1}}}},
+        {"mono2", {PixelFormat::Mono2, {0b11'00'10}, {2, 0, 3}, {glm::vec3(2.0f / 3), {0, 0, 0}, {1, 1, 1}}}},
+        {"mono4",
+         {PixelFormat::Mono4, {0xf1, 0x05}, {1, 15, 5}, {glm::vec3(1.0f / 15), {1, 1, 1}, glm::vec3(1.0f / 3)}}},
+        // 15 bits a pixel: red, green, and one of blue with all of red.
+        {"rgb555",
+         {PixelFormat::Rgb555,
+          {0x00, 0x7c, 0xf0, 0x41, 0x00, 0x1f},
+          {0x7c00, 0x03e0, 0x7c01},
+          {{1, 0, 0}, {0, 1, 0}, {1, 0, 1.0 / 31}}}},
         {"rgb332",
          {PixelFormat::Rgb332,
           {0b111'000'00, 0b000'011'00, 0b001'000'10},
@@ -108,10 +262,13 @@ TEST_CASE("pixels are read from their bits in every format") {
     REQUIRE(page.size() == frame_bytes(display));
 
     std::vector<std::uint32_t> codes(3);
-    for (const sim::Flash& flash : sim::expose(display, page, 255).flashes) {
+    const sim::LightField field = sim::expose(display, page, 255);
+    CHECK(field.flashes.size() ==
+          static_cast<std::size_t>(std::ranges::count_if(sample.codes, [](auto code) { return code != 0; })));
+    for (const sim::Flash& flash : field.flashes) {
         const auto column = static_cast<std::size_t>(std::lround(flash.place_mm.x / 2.0 + 1.0));
         codes[column] = flash.code;
-        CHECK(glm::distance(flash.light, sample.lights[column]) < 1e-6f);
+        CHECK(glm::distance(field.light(flash), sample.lights[column]) < 1e-6f);
     }
     CHECK(codes == sample.codes);
 }
@@ -135,8 +292,28 @@ TEST_CASE("brightness dims light, not codes") {
     set_pixel(display, page, {}, 0x0000ff);
     const sim::LightField field = sim::expose(display, page, 51);
     REQUIRE(field.flashes.size() == 1);
-    CHECK(field.flashes[0].light.x == Approx(0.2f));
+    CHECK(field.light(field.flashes[0]).x == Approx(0.2f));
     CHECK(field.flashes[0].code == 0xff);
+}
+
+TEST_CASE("of a large dark page every lit pixel is found, and none beyond the row") {
+    // Rows of 77 pixels end within a byte; the bits behind them are not pixels.
+    const auto format = GENERATE(from_range(kPixelFormats));
+    INFO(to_string(format));
+    const DisplayDescription display = stack_of(77, 3, 2, format);
+    const std::uint32_t bits = bits_per_pixel(format);
+    for (std::uint32_t column = 0; column < 77; ++column) {
+        for (const std::uint32_t code : {1u, 1u << (bits - 1), (1u << bits) - 1}) {
+            std::vector<std::byte> page = dark_page(display);
+            const std::size_t row = row_bytes(display.panels[0], format);
+            if (77 * bits % 8 != 0) page[5 * row - 1] |= std::byte{0x80};
+            set_pixel(display, page, {.slice = 1, .row = 1, .column = column}, code);
+            const sim::LightField field = sim::expose(display, page, 255);
+            REQUIRE(field.flashes.size() == 1);
+            REQUIRE(field.flashes[0].code == code);
+            REQUIRE(field.flashes[0].place_mm.x == 2.0 * column - 76.0);
+        }
+    }
 }
 
 TEST_CASE("swapped planes trade places") {
@@ -155,6 +332,36 @@ TEST_CASE("a mirrored panel's columns run the other way") {
     const Pixel other{.slice = 2, .panel = 0, .row = 1, .column = 1};
     CHECK(only_flash(display, left, misbuild).place_mm == only_flash(display, right).place_mm);
     CHECK(only_flash(display, other, misbuild).place_mm == only_flash(display, other).place_mm);
+}
+
+TEST_CASE("points of a string can be swapped, and counted from the wrong one") {
+    const DisplayDescription display = points_of();
+    const auto place = [&](std::uint32_t point, const sim::Misbuild& misbuild = {}) {
+        return only_flash(display, {.row = point / 5, .column = point % 5}, misbuild).place_mm;
+    };
+    CHECK(place(2, {.swap_a = 2, .swap_b = 8}) == place(8));
+    CHECK(place(8, {.swap_a = 2, .swap_b = 8}) == place(2));
+    CHECK(place(0, {.phase_slices = -1}) == place(9));
+    CHECK(place(4, {.phase_slices = 1}) == place(5));
+    CHECK(place(6, {.mirrored_panel = 0}) == place(8));
+}
+
+TEST_CASE("a swept plane that is late is one slice higher, and at the top on its way down") {
+    const auto profile = GENERATE(MotionProfile::Constant, MotionProfile::Sine, MotionProfile::Table);
+    const DisplayDescription display = swept_of(2, 2, 6, profile);
+    for (std::uint32_t slice = 0; slice < 6; ++slice) {
+        const double late = only_flash(display, {.slice = slice}, {.phase_slices = 1}).place_mm.z;
+        const double next = only_flash(display, {.slice = std::min(slice + 1, 5u)}).place_mm.z;
+        CHECK(late == Approx(next).margin(1e-9));
+    }
+}
+
+TEST_CASE("a helix whose index is off by a slice is a slice of height too low") {
+    const DisplayDescription display = helix_of(4, 3, 5, 2);
+    for (std::uint32_t slice = 0; slice < 5; ++slice) {
+        const double late = only_flash(display, {.slice = slice}, {.phase_slices = 1}).place_mm.z;
+        CHECK(late == Approx(only_flash(display, {.slice = (slice + 1) % 5}).place_mm.z).margin(1e-9));
+    }
 }
 
 TEST_CASE("an index mark that is off by a slice turns everything by a slice") {

@@ -79,7 +79,7 @@ TEST_CASE("a frame lights up at the next boundary of a cycle and not before") {
     const sim::LightField field = bench.simulator.light();
     REQUIRE(field.flashes.size() == 1);
     CHECK(field.flashes[0].code == 0xff);
-    CHECK(field.flashes[0].light == glm::vec3(1.0f, 0.0f, 0.0f));
+    CHECK(field.light(field.flashes[0]) == glm::vec3(1.0f, 0.0f, 0.0f));
     CHECK(field.flashes[0].place_mm == glm::dvec3(0.0, -4.5, -7.0));
     CHECK(bench.simulator.device().status(kCycle_ns).shown_frame == 1);
 }
@@ -111,8 +111,9 @@ TEST_CASE("brightness and blanking by the host change the light") {
     bench.send(wire::Control{.operation = wire::ControlOperation::Brightness, .value = 51});
     bench.poll(1);
     bench.poll(kCycle_ns);
-    REQUIRE(bench.simulator.light().flashes.size() == 1);
-    CHECK(bench.simulator.light().flashes[0].light.x == Approx(0.2f));
+    const sim::LightField dimmed = bench.simulator.light();
+    REQUIRE(dimmed.flashes.size() == 1);
+    CHECK(dimmed.light(dimmed.flashes[0]).x == Approx(0.2f));
     bench.send(wire::Control{.operation = wire::ControlOperation::Blank, .value = 1});
     bench.poll(kCycle_ns + 1);
     CHECK(bench.simulator.light().flashes.empty());

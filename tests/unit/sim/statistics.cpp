@@ -1,6 +1,7 @@
 #include "sim/statistics.h"
 
 #include <cctype>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -131,11 +132,74 @@ TEST_CASE("a place that one of its two samples lit counts as half as bright") {
     CHECK(statistics.brightness_ratio == Approx(2.0));
 }
 
+TEST_CASE("visits and coverage tell how often places are lit, and how many") {
+    DisplayDescription display = rotor_of(3, 2, 5, PixelFormat::Mono1, 1);
+    display.panels[0].offset_mm = 0.0;  // the middle column is on the axis
+    const sim::Statistics full = measure_full(display);
+    CHECK(full.places == 2 + 2 * 10);
+    CHECK(full.visits.least == 1);
+    CHECK(full.visits.most == 5);
+    CHECK(full.visits.mean == Approx(30.0 / 22.0));
+    CHECK(full.coverage == 1.0);
+    std::vector<std::byte> page = dark_page(display);
+    set_pixel(display, page, {.slice = 3, .row = 1, .column = 2}, 1);
+    const sim::Statistics one = sim::measure(display, sim::expose(display, page, 255), {});
+    CHECK(one.visits.most == 1);
+    CHECK(one.coverage == Approx(1.0 / 22.0));
+}
+
+TEST_CASE("a swept plane of constant speed and a helix are evenly bright, a sine is brighter at its ends") {
+    CHECK(measure_full(swept_of(3, 2, 9, MotionProfile::Constant)).brightness_ratio == Approx(1.0));
+    CHECK(measure_full(helix_of(6, 4, 7, 2)).brightness_ratio == Approx(1.0));
+    // Of 9 slices the middle one is sin 10° high, in halves of the stroke, doubled; the lowest 1 − cos 20°.
+    const double degree = std::acos(-1.0) / 180.0;
+    CHECK(measure_full(swept_of(3, 2, 9, MotionProfile::Sine)).brightness_ratio ==
+          Approx(2.0 * std::sin(10.0 * degree) / (1.0 - std::cos(20.0 * degree))));
+}
+
+TEST_CASE("the planes of an uneven stack stand for the space to their neighbours") {
+    constexpr double kHeights[] = {0.0, 2.0, 8.0};
+    DisplayDescription display = stack_of(3, 2, 3);
+    display.plane_heights_mm = kHeights;
+    CHECK(measure_full(display).brightness_ratio == Approx(3.0));  // 2, 4 and 6 mm
+}
+
+TEST_CASE("a panel that leans sweeps less, and one on its side has columns that were rows") {
+    DisplayDescription leaning = rotor_of(4, 1, 8);
+    leaning.panels[1].tilt_deg = 60.0;  // its row is the axis of the tilt: it sweeps the same place, half as high
+    leaning.panels[1].lift_mm = 50.0;
+    const sim::Statistics statistics = measure_full(leaning);
+    CHECK(statistics.brightness_ratio == Approx(6.0));  // LEDs at 1 and 3 mm, and upright or leaning
+    DisplayDescription turned = rotor_of(2, 4, 8, PixelFormat::Mono1, 1);
+    turned.panels[0].turned = 1;
+    CHECK(measure_full(turned).brightness_ratio == Approx(3.0));  // LEDs at 2 and 6 mm
+}
+
+TEST_CASE("panels of different lifts share the places that both pass") {
+    DisplayDescription display = rotor_of(2, 3, 2);  // rows 4 mm apart; back to back
+    display.panels[0].offset_mm = display.panels[1].offset_mm = 0.0;
+    display.panels[1].lift_mm = 8.0;
+    const sim::Statistics statistics = measure_full(display);
+    CHECK(statistics.samples == 2 * 2 * 2 * 3);
+    CHECK(statistics.places == 2 * 5);  // The top row of one passes where the lowest of the other does.
+    CHECK(statistics.visits.least == 2);
+    CHECK(statistics.visits.most == 4);
+    CHECK(statistics.brightness_ratio == Approx(1.0));
+}
+
+TEST_CASE("free points count alone, and two at one place as that place") {
+    const sim::Statistics statistics = measure_full(points_of());
+    CHECK(statistics.samples == 10);
+    CHECK(statistics.places == 9);
+    CHECK(statistics.visits.most == 2);
+    CHECK(statistics.brightness_ratio == Approx(1.0));
+}
+
 TEST_CASE("light outside the geometry is counted apart") {
     const DisplayDescription display = stack_of(4, 4, 4);
     sim::LightField field;
-    field.flashes.push_back({{1.0, 1.5, 3.5}, glm::vec3(1.0f), 1, 0});
-    field.flashes.push_back({{1.0, 1.5, 9.0}, glm::vec3(1.0f), 1, 0});
+    field.flashes.push_back({{1.0, 1.5, 3.5}, 1, 0});
+    field.flashes.push_back({{1.0, 1.5, 9.0}, 1, 0});
     const sim::Statistics statistics = sim::measure(display, field, {});
     CHECK(statistics.pixels_lit == 2);
     CHECK(statistics.voxels_lit == 1);
@@ -150,9 +214,10 @@ TEST_CASE("statistics are JSON, in one order") {
     const DisplayDescription display = stack_of(2, 2, 2);
     const sim::LightField field = sim::expose(display, full_page(display), 255);
     const std::string json = sim::to_json(sim::measure(display, field, device));
-    CHECK(json ==
-          R"({"display": "stack", "samples": 8, "places": 8, "pixels_lit": 8, "voxels_lit": 8, "light_outside": 0, )"
-          R"("brightness_ratio": 1, "frame": 7, "brightness": 200, "blank": false})");
+    CHECK(
+        json ==
+        R"({"display": "stack", "samples": 8, "places": 8, "pixels_lit": 8, "voxels_lit": 8, "light_outside": 0, )"
+        R"("coverage": 1, "visits": {"least": 1, "mean": 1, "most": 1}, "brightness_ratio": 1, "frame": 7, "brightness": 200, "blank": false})");
     CHECK(JsonReader(json).is_valid());
 }
 
@@ -161,7 +226,7 @@ TEST_CASE("statistics of nothing are JSON with nulls, and names are escaped") {
     display.name = DisplayName("a \"b\" \\ c\n");
     const std::string json = sim::to_json(sim::measure(display, {}, {}));
     CHECK(json.find(R"("display": "a \"b\" \\ c\u000a")") != std::string::npos);
-    CHECK(json.find(R"("brightness_ratio": null, "frame": null)") != std::string::npos);
+    CHECK(json.find(R"("coverage": 0, "visits": null, "brightness_ratio": null, "frame": null)") != std::string::npos);
     CHECK(JsonReader(json).is_valid());
 }
 

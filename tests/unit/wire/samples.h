@@ -18,7 +18,7 @@ inline const Hello kHello{.features = kFeatureDelta | kFeaturePresentAt,
                           .boot_nonce = 0xA1A2A3A4,
                           .serial = DisplayName("XV-0042"),
                           .display = DisplayName("cube8"),
-                          .geometry_digest = 0xb54e17f298c824e8,
+                          .geometry_digest = 0xa45549ebffcb652e,
                           .format = PixelFormat::Mono1,
                           .planes = 1,
                           .frame_bytes = 64,
@@ -47,7 +47,7 @@ inline constexpr DeviceStatus kDeviceStatus{.brightness = 200,
                                             .blank = 1,
                                             .silence_action = SilenceAction::Hold,
                                             .watchdog_ms = 2500,
-                                            .fault = Fault::Scan,
+                                            .fault = Fault::LateScan,
                                             .shown_frame = 8,
                                             .has_frame = 1,
                                             .shown_crc = 0xB1B2B3B4,
@@ -55,7 +55,8 @@ inline constexpr DeviceStatus kDeviceStatus{.brightness = 200,
                                             .frames_accepted = 100,
                                             .frames_dropped = 3,
                                             .packets_bad = 4,
-                                            .device_time_ns = 0x7172737475767778};
+                                            .device_time_ns = 0x7172737475767778,
+                                            .faults = 0x00000006};
 
 /// Calls visit(name in messages.hex, sequence there, sample) for each.
 void for_each_sample(auto&& visit) {

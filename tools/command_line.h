@@ -1,0 +1,60 @@
+// The command line, as CLI11 reads it: the files tools/command_line*.cpp and main.cpp alone include CLI11, which is
+// slow to compile.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <glm/vec3.hpp>
+
+#include "tools/commands.h"
+#include "voxelizer/error.h"
+
+namespace xorvox::tools {
+
+/// Where the options of all commands are kept while they are read and run.
+struct AllOptions {
+    InfoOptions info;
+    VoxelizeOptions voxelize;
+    ShowOptions show;
+    SimOptions sim;
+    BenchOptions bench;
+    BenchDisplayOptions bench_display;
+    DisplaysOptions displays;
+    ValidateOptions validate;
+    PlanOptions plan;
+    PatternOptions pattern;
+};
+
+/// What a subcommand is, and what runs when it was given.
+struct Command {
+    CLI::App* app = nullptr;
+    std::function<Expected<void>()> run;
+};
+
+/// Puts the commands into `program`; `options` is borrowed by them.
+std::vector<Command> mesh_commands(CLI::App& program, AllOptions& options);
+std::vector<Command> display_commands(CLI::App& program, AllOptions& options);
+Command bench_command(CLI::App& program, AllOptions& options);
+
+/// The lines below an `Examples:` at the end of a command's help.
+void examples(CLI::App& app, const std::string& text);
+
+/// The mesh and how it is read; add_strict() the refusal of open ones.
+void add_mesh(CLI::App& app, MeshOptions& mesh);
+void add_strict(CLI::App& app, MeshOptions& mesh);
+
+/// "64" into a number of things, at most `most`. A CLI::ValidationError says what is wrong; so below.
+std::uint32_t parse_count(const std::string& option, const std::string& text, std::uint32_t most);
+/// "1.5" into a number above zero.
+double parse_positive(const std::string& option, const std::string& text);
+/// "1,2.5,3" into numbers; none at all when one of them is wrong.
+std::vector<double> parse_numbers(const std::string& text);
+/// "1,2.5,3" into a vector; one number stands for three where `one_for_all`.
+glm::dvec3 parse_vector(const std::string& option, const std::string& text, bool one_for_all);
+
+}  // namespace xorvox::tools

@@ -1,0 +1,70 @@
+// The command bench and its parts.
+#include "tools/bench/result.h"
+#include "tools/command_line.h"
+
+namespace xorvox::tools {
+namespace {
+
+CLI::App& bench_voxelize_command(CLI::App& bench, BenchOptions& options) {
+    CLI::App& app = *bench.add_subcommand(
+        "voxelize",
+        "Measure the solid voxelizers: medians of the whole way from mesh to bits, and of what the machine cannot do "
+        "without (the floor: the volume cleared, its layers combined, the mesh's corners read), all in turns");
+    app.add_option("meshes", options.meshes, "The meshes: .ply, .stl or .obj files")->required()->type_name("MESH");
+    app.add_option("--sizes", options.sizes, "Samples a side of the cube around the mesh")
+        ->capture_default_str()
+        ->type_name("N,N");
+    app.add_option("--methods", options.methods, "Of column, simplicial and reference")
+        ->capture_default_str()
+        ->type_name("NAME,NAME");
+    app.add_option("--threads", options.threads, "Threads of the method column")
+        ->capture_default_str()
+        ->type_name("N,N");
+    app.add_option("--kernel", options.kernel,
+                   "Of the method column: scalar, sse4, avx2, avx512 or neon (default: the best here)")
+        ->type_name("NAME");
+    app.add_flag("--quick", options.quick, "Few and short runs, for a first look");
+    app.add_option("--plot", options.plot, "A chart of the results, with logarithmic axes")->type_name("OUT.png");
+    CLI::Option* json = app.add_flag("--json", options.json, "One JSON array on standard output");
+    app.add_flag("--tables", options.tables,
+                 "Also the tables of Rueda et al. beside the times of gem24, gem1944, spot5856, fandisk13k and "
+                 "dragon100k, those of them that are given")
+        ->excludes(json);
+    examples(app,
+             "  xorvox bench voxelize bunny.ply dragon.ply --plot chart.png\n"
+             "  xorvox bench voxelize bunny.ply --sizes 256 --methods column --threads 1,2,4 --json\n\n" +
+                 bench_json_fields());
+    return app;
+}
+
+CLI::App& bench_displays_command(CLI::App& bench, BenchDisplayOptions& options) {
+    CLI::App& app = *bench.add_subcommand(
+        "displays",
+        "Measure the way of a frame, from a mesh that turned to encoded packets, in the display's own format and one "
+        "colour, against the time that the display gives it (headroom); and resampling: its speed and its errors");
+    app.add_option("mesh", options.mesh, "The mesh: a .ply, .stl or .obj file")->required()->type_name("MESH");
+    app.add_option("--display", options.displays, "Only these presets or display files (default: every preset)")
+        ->type_name("NAME|FILE.toml");
+    app.add_flag("--quick", options.quick, "Few and short runs, for a first look");
+    app.add_flag("--json", options.json, "One JSON array on standard output");
+    examples(app, "  xorvox bench displays bunny.ply\n  xorvox bench displays bunny.ply --display vortex --quick");
+    return app;
+}
+
+}  // namespace
+
+Command bench_command(CLI::App& program, AllOptions& options) {
+    CLI::App& bench = *program.add_subcommand("bench", "Measure how fast this machine is");
+    bench.require_subcommand(1);
+    examples(
+        bench,
+        "  xorvox bench voxelize bunny.ply\n  xorvox bench displays bunny.ply\n\nxorvox bench voxelize --help tells "
+        "more.");
+    CLI::App& of_voxelizer = bench_voxelize_command(bench, options.bench);
+    bench_displays_command(bench, options.bench_display);
+    return {&bench, [&options, &of_voxelizer] {
+                return of_voxelizer.parsed() ? bench_voxelize(options.bench) : bench_displays(options.bench_display);
+            }};
+}
+
+}  // namespace xorvox::tools

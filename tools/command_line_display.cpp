@@ -1,0 +1,172 @@
+// The commands about displays: show, sim, displays, validate, plan and pattern.
+#include <fmt/format.h>
+
+#include "tools/command_line.h"
+
+namespace xorvox::tools {
+namespace {
+
+void add_display(CLI::App& app, std::string& display) {
+    app.add_option("--display", display, "A preset (see xorvox displays) or a display file")
+        ->required()
+        ->type_name("NAME|FILE.toml");
+}
+
+/// "960x720" into pixels.
+PictureSize parse_size(const std::string& option, const std::string& text) {
+    const std::size_t cross = text.find('x');
+    if (cross == text.npos) throw CLI::ValidationError(option, fmt::format("'{}' is not WxH, as in 960x720", text));
+    return {parse_count(option, text.substr(0, cross), 4096), parse_count(option, text.substr(cross + 1), 4096)};
+}
+
+/// Where light goes; for show and pattern.
+void add_delivery(CLI::App& app, DeliveryOptions& options) {
+    app.add_option("--to", options.to,
+                   "Where it goes: loopback (a simulated display in this program, the default), tcp:HOST:PORT, or "
+                   "file:PATH")
+        ->type_name("ADDRESS");
+    app.add_option("--png", options.png, "A picture of the light; needs --to loopback")->type_name("OUT.png");
+    app.add_option("--view", options.view,
+                   "What --png draws: perspective (the default), or orthographic: front, side and top")
+        ->check(CLI::IsMember({"perspective", "orthographic"}).description(""))
+        ->type_name("perspective|orthographic");
+    app.add_option_function<std::string>(
+           "--size", [&options](const std::string& text) { options.size = parse_size("--size", text); },
+           "Pixels of --png (default 960x720); an orthographic one has three square views and only a width counts")
+        ->type_name("WxH");
+    app.add_flag("--hold", options.hold,
+                 "Stay until interrupted. Without it a display goes dark when its watchdog (2 s) misses the host");
+    app.add_flag("--json", options.json, "What was sent and what lit up, as one JSON object on standard output");
+}
+
+CLI::Option* add_positive(CLI::App& app, const std::string& name, std::function<void(double)> set,
+                          const std::string& type, const std::string& help) {
+    return app
+        .add_option_function<std::string>(
+            name, [name, set](const std::string& text) { set(parse_positive(name, text)); }, help)
+        ->type_name(type);
+}
+
+Command show_command(CLI::App& program, ShowOptions& options) {
+    CLI::App& app = *program.add_subcommand("show", "Show a mesh on a display, or on a simulated one");
+    add_mesh(app, options.mesh);
+    add_strict(app, options.mesh);
+    add_display(app, options.display);
+    app.add_option(
+           "--color", options.color,
+           "constant:NAME, constant:#rrggbb, gradient (the default), gradient:NAME,NAME from bottom to top, noise "
+           "or noise:SCALE; NAME is a colour as in CSS, and a wrong one lists them all")
+        ->type_name("KIND:ARGS");
+    app.add_option(
+           "--light", options.light,
+           "bright: every sample inside is lit (the default); uniform: each voxel once a panel, so that a rotor "
+           "is as bright at its rim as at its axis")
+        ->check(CLI::IsMember({"bright", "uniform"}).description(""))
+        ->type_name("bright|uniform");
+    app.add_option(
+           "--sampling", options.sampling,
+           "native: voxelize at the display's own samples, exactly (the default); cartesian: on a grid of cubes "
+           "first, which the samples then take the nearest voxel of")
+        ->check(CLI::IsMember({"native", "cartesian"}).description(""))
+        ->type_name("native|cartesian");
+    CLI::Option* const spin =
+        app.add_option_function<std::string>(
+               "--spin", [&options](const std::string& text) { options.spin_rpm = parse_positive("--spin", text); },
+               "Turn the model about its upright axis so many times a minute, a new frame each "
+               "time the display can show one, and tell how steadily they came")
+            ->type_name("RPM");
+    add_positive(
+        app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
+        "How long to spin (default 10)")
+        ->needs(spin);
+    add_delivery(app, options.delivery);
+    examples(app,
+             "  xorvox show bunny.ply --up y --display vortex --png bunny.png\n"
+             "  xorvox show bunny.ply --up y --display cube16-ws2812 --color constant:orange --to tcp:127.0.0.1:7777\n"
+             "  xorvox show bunny.ply --up y --display vortex --spin 6 --seconds 20 --to tcp:127.0.0.1:7777");
+    return {&app, [&options] { return show(options); }};
+}
+
+Command sim_command(CLI::App& program, SimOptions& options) {
+    CLI::App& app =
+        *program.add_subcommand("sim", "Be a display: wait for clients and say what lights up, until killed");
+    app.add_option("--display", options.display, "A preset (see xorvox displays) or a display file")
+        ->capture_default_str()
+        ->type_name("NAME|FILE.toml");
+    app.add_option("--listen", options.listen, "Where clients connect: tcp:PORT (on 127.0.0.1) or tcp:HOST:PORT")
+        ->required()
+        ->type_name("ADDRESS");
+    app.add_flag("--json", options.json, "One JSON object a line on standard output, for every frame shown");
+    examples(app, "  xorvox sim --display vortex --listen tcp:7777");
+    return {&app, [&options] { return tools::sim(options); }};
+}
+
+Command displays_command(CLI::App& program, DisplaysOptions& options) {
+    CLI::App& app = *program.add_subcommand("displays", "List the displays that are built in, or describe one");
+    app.add_option("display", options.display, "A preset or a display file, to be described in full")
+        ->type_name("NAME|FILE.toml");
+    CLI::Option* const cpp =
+        app.add_flag("--cpp", options.cpp, "The display as a C++ header, for firmware, on standard output");
+    app.add_flag("--json", options.json, "JSON on standard output: an array of all, or one object")->excludes(cpp);
+    app.parse_complete_callback([&options] {
+        if (options.cpp && options.display.empty()) {
+            throw CLI::ValidationError("--cpp", "needs the name of a display, as in xorvox displays vortex --cpp");
+        }
+    });
+    examples(app, "  xorvox displays\n  xorvox displays vortex\n  xorvox displays mine.toml --cpp > mine.h");
+    return {&app, [&options] { return displays(options); }};
+}
+
+Command validate_command(CLI::App& program, ValidateOptions& options) {
+    CLI::App& app = *program.add_subcommand(
+        "validate", "Check display files: every mistake by line; exit status 2 if there is one");
+    app.add_option("files", options.files, "Display files")->required()->type_name("FILE.toml");
+    app.add_flag("--json", options.json, "One JSON array on standard output");
+    examples(app, "  xorvox validate mine.toml");
+    return {&app, [&options] { return validate(options); }};
+}
+
+Command plan_command(CLI::App& program, PlanOptions& options) {
+    CLI::App& app =
+        *program.add_subcommand("plan", "Will it fit? What a display needs of a link, of its driver and of its memory");
+    app.add_option("display", options.display, "A preset (see xorvox displays) or a display file")
+        ->required()
+        ->type_name("NAME|FILE.toml");
+    app.add_option("--link", options.link, "usb-hs (the default), usb-fs, hid-hs, hid-fs, tcp or gpio")
+        ->type_name("LINK");
+    add_positive(
+        app, "--gpio-rate", [&options](double hz) { options.gpio_rate_hz = hz; }, "HZ",
+        "Of --link gpio: how often a second the lines can change");
+    app.add_flag("--json", options.json, "One JSON object on standard output");
+    examples(app,
+             "  xorvox plan vortex\n  xorvox plan cube8-595 --link hid-fs\n  xorvox plan mine.toml --link gpio "
+             "--gpio-rate 2000000");
+    return {&app, [&options] { return plan(options); }};
+}
+
+Command pattern_command(CLI::App& program, PatternOptions& options) {
+    CLI::App& app = *program.add_subcommand(
+        "pattern", "Show a bring-up pattern on a display: which panel is wrong, is the axis off; see docs/bring-up.md");
+    app.add_option("display", options.display, "A preset (see xorvox displays) or a display file")
+        ->required()
+        ->type_name("NAME|FILE.toml");
+    app.add_option("pattern", options.name, "The pattern's name; without one they are listed")->type_name("PATTERN");
+    add_positive(
+        app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
+        "How long a pattern that moves is shown (default: once through it)");
+    add_delivery(app, options.delivery);
+    examples(app,
+             "  xorvox pattern vortex\n  xorvox pattern vortex panels --png panels.png\n"
+             "  xorvox pattern mine.toml walk --to tcp:127.0.0.1:7777");
+    return {&app, [&options] { return pattern(options); }};
+}
+
+}  // namespace
+
+std::vector<Command> display_commands(CLI::App& program, AllOptions& options) {
+    return {show_command(program, options.show),         sim_command(program, options.sim),
+            displays_command(program, options.displays), validate_command(program, options.validate),
+            plan_command(program, options.plan),         pattern_command(program, options.pattern)};
+}
+
+}  // namespace xorvox::tools
