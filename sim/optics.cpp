@@ -224,6 +224,16 @@ double plane_height_mm(const DisplayDescription& display, double slice) {
     return motion.stroke_mm * profile_height(motion, part) - motion.stroke_mm / 2.0;
 }
 
+std::size_t count_lit(const DisplayDescription& display, std::span<const std::byte> page) {
+    if (page.empty()) return 0;
+    const std::uint32_t bits = bits_per_pixel(display.format);
+    std::size_t count = 0;
+    for_each_row(display, page, [&](std::uint32_t, std::uint32_t p, std::uint32_t, std::span<const std::byte> row) {
+        for_each_lit(row, display.panels[p].columns, bits, [&](std::uint32_t, std::uint32_t) { ++count; });
+    });
+    return count;
+}
+
 LightField expose(const DisplayDescription& display, std::span<const std::byte> page, std::uint8_t brightness,
                   const Misbuild& misbuild) {
     LightField field{display.format, brightness, {}};
@@ -232,11 +242,7 @@ LightField expose(const DisplayDescription& display, std::span<const std::byte> 
     assert(std::max(misbuild.swap_a, misbuild.swap_b) < static_cast<std::int64_t>(frame_pixels(display)));
 
     const std::uint32_t bits = bits_per_pixel(display.format);
-    std::size_t count = 0;
-    for_each_row(display, page, [&](std::uint32_t, std::uint32_t p, std::uint32_t, std::span<const std::byte> row) {
-        for_each_lit(row, display.panels[p].columns, bits, [&](std::uint32_t, std::uint32_t) { ++count; });
-    });
-    field.flashes.reserve(count);
+    field.flashes.reserve(count_lit(display, page));
     std::optional<Seats> seats;
     for_each_row(
         display, page, [&](std::uint32_t slice, std::uint32_t p, std::uint32_t row, std::span<const std::byte> pixels) {

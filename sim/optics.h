@@ -2,6 +2,7 @@
 // driver's lattice and slice map, so that a mistake there shows as light in the wrong place.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -46,6 +47,9 @@ struct Misbuild {
 /// (validate_display). Throws std::bad_alloc.
 LightField expose(const DisplayDescription& display, std::span<const std::byte> page, std::uint8_t brightness,
                   const Misbuild& misbuild = {});
+
+/// How many pixels of `page` (as for expose()) are not zero.
+std::size_t count_lit(const DisplayDescription& display, std::span<const std::byte> page);
 
 /// Height of the plane of a stack or of a swept plane in the middle of slice `slice`, or as long before and after it as
 /// a broken number says: slice − ½ is where a swept plane's slice begins. Between the planes of a stack that are

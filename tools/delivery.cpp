@@ -34,7 +34,7 @@ Expected<void> write_png(io::AtomicFile& file, const sim::Image& image) {
 
 /// A display in this program, in simulated time: both ends move in turn, and the clock jumps when neither can.
 Expected<Delivery> show_in_process(const DeliveryOptions& options, const DisplayDescription& display,
-                                   std::span<const std::byte> frame, std::size_t voxels, io::AtomicFile* png) {
+                                   std::span<const std::byte> frame, std::size_t pixels, io::AtomicFile* png) {
     auto [host_end, device_end] = transport::make_loopback();
     Expected<sim::Simulator> simulator = sim::Simulator::make(display, device_end.get());
     if (!simulator) return tl::unexpected(simulator.error());
@@ -52,7 +52,7 @@ Expected<Delivery> show_in_process(const DeliveryOptions& options, const Display
         }
     }
     Delivery delivery{session.statistics(), std::nullopt};
-    Expected<LightSeen> seen = look_at(*simulator, now_ns, voxels, options, png);
+    Expected<std::optional<LightSeen>> seen = look_at(*simulator, now_ns, pixels, options, png);
     if (!seen) return tl::unexpected(seen.error());
     delivery.light = std::move(*seen);
     return delivery;
@@ -149,12 +149,14 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
     return {};
 }
 
-Expected<LightSeen> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t voxels,
-                            const DeliveryOptions& options, io::AtomicFile* png) {
+Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t pixels,
+                                           const DeliveryOptions& options, io::AtomicFile* png) {
     // Flashes, and what sorts and draws them.
     constexpr std::uint64_t kBytesAPixel = 160;
-    if (const auto fits = check_memory(voxels * kBytesAPixel, "the light of " + thousands(voxels) + " pixels"); !fits) {
-        return tl::unexpected(fits.error());
+    if (const auto fits = check_memory(pixels * kBytesAPixel, "the light of " + thousands(pixels) + " pixels"); !fits) {
+        if (png != nullptr || options.json) return tl::unexpected(fits.error());
+        warn("the display shows the frame, but its light is not measured: " + fits.error().message);
+        return std::optional<LightSeen>();
     }
     const DisplayDescription& display = simulator.display();
     const sim::LightField light = simulator.light();
@@ -163,7 +165,7 @@ Expected<LightSeen> look_at(const sim::Simulator& simulator, std::uint64_t now_n
         const Progress progress("measuring the light");
         seen.statistics = sim::measure(display, light, simulator.device().status(now_ns));
     }
-    if (png == nullptr) return seen;
+    if (png == nullptr) return std::optional(std::move(seen));
     const Progress progress("drawing the picture");
     sim::Picture picture;
     if (options.view == "orthographic") {
@@ -181,14 +183,14 @@ Expected<LightSeen> look_at(const sim::Simulator& simulator, std::uint64_t now_n
     }
     if (const auto written = write_png(*png, picture.image); !written) return tl::unexpected(written.error());
     seen.picture_covered = picture.covered;
-    return seen;
+    return std::optional(std::move(seen));
 }
 
 Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Address& address,
-                           const DisplayDescription& display, std::span<const std::byte> frame, std::size_t voxels,
+                           const DisplayDescription& display, std::span<const std::byte> frame, std::size_t pixels,
                            io::AtomicFile* png) {
     switch (address.kind) {
-        case transport::AddressKind::Loopback: return show_in_process(options, display, frame, voxels, png);
+        case transport::AddressKind::Loopback: return show_in_process(options, display, frame, pixels, png);
         case transport::AddressKind::Tcp: {
             Expected<UniqueLink> link = transport::connect_tcp(address.host, address.port);
             if (!link) return tl::unexpected(link.error());

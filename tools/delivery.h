@@ -35,19 +35,20 @@ inline constexpr std::uint64_t kSimulatedStep_ns = 100'000'000;
 /// so that equal frames give equal files.
 host::SessionOptions session_options(bool two_way, const DisplayDescription& display, std::span<const std::byte> frame);
 
-/// Measures what `simulator` shows, at most `voxels` pixels, and draws it into `png` if there is one.
-Expected<LightSeen> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t voxels,
-                            const DeliveryOptions& options, io::AtomicFile* png);
+/// Measures what `simulator` shows, at most `pixels` of them, and draws it into `png` if there is one. Without enough
+/// memory for that: nothing, with a warning, unless a picture or JSON was asked for.
+Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t pixels,
+                                           const DeliveryOptions& options, io::AtomicFile* png);
 
 /// What of `options` can be refused before any work: --png without loopback, its name, --view without it, --hold
 /// without tcp, an output that would overwrite the file `input` (empty: none).
 Expected<void> check_delivery(const DeliveryOptions& options, const transport::Address& address,
                               const std::string& input);
 
-/// Sends `frame`, in which `voxels` pixels are lit, and waits until the display shows it, or a link without a way back
+/// Sends `frame`, in which `pixels` are lit, and waits until the display shows it, or a link without a way back
 /// has taken it. `png`, on loopback: where a picture of the light goes; null for none.
 Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Address& address,
-                           const DisplayDescription& display, std::span<const std::byte> frame, std::size_t voxels,
+                           const DisplayDescription& display, std::span<const std::byte> frame, std::size_t pixels,
                            io::AtomicFile* png);
 
 }  // namespace xorvox::tools

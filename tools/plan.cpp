@@ -91,7 +91,7 @@ void print_frame(const DisplayDescription& display, const host::Plan& plan, cons
     fmt::print("frame\n");
     line("samples", fmt::format("{} in {} slices", thousands(plan.samples), thousands(display.slices)));
     line("voxels", fmt::format("{} × {} × {} = {} of its pitch in its box", plan.cartesian_size[0],
-                               plan.cartesian_size[1], plan.cartesian_size[2], thousands(plan.cartesian_voxels)));
+                               plan.cartesian_size[1], plan.cartesian_size[2], thousands(plan.bright.voxels)));
     line("raw", fmt::format("{} bytes of {}, {} with packet headers", thousands(frame_bytes(display)),
                             to_string(display.format), thousands(static_cast<std::uint64_t>(link.frame_wire_bytes))));
     const auto compressed = [&](const char* name, const host::ExampleBytes& bytes) {
@@ -106,6 +106,29 @@ void print_frame(const DisplayDescription& display, const host::Plan& plan, cons
     if (*scaled != '\0') {
         line("", fmt::format("measured on {} of {} slices", example.measured_slices, thousands(display.slices)));
     }
+}
+
+/// "98.3 % of the voxels within reach, each 1 to 79 times a frame, 5.6 on average".
+std::string coverage_text(const host::SliceCoverage& light) {
+    const double covered = static_cast<double>(light.covered);
+    const std::string share = fmt::format("{:.3g} % of the voxels within reach, each",
+                                          100.0 * covered / static_cast<double>(light.reachable));
+    if (light.most_visits == 1) return share + " once a frame";
+    if (light.most_visits == light.least_visits) return fmt::format("{} {} times a frame", share, light.most_visits);
+    return fmt::format("{} {} to {} times a frame, {:.3g} on average", share, light.least_visits, light.most_visits,
+                       static_cast<double>(light.visits) / covered);
+}
+
+void print_light(const host::Plan& plan) {
+    fmt::print("light\n");
+    line("bright", coverage_text(plan.bright));
+    line("uniform", coverage_text(plan.uniform));
+}
+
+std::string coverage_json(const host::SliceCoverage& light) {
+    return fmt::format(
+        "{{\"reachable\": {}, \"covered\": {}, \"visits\": {}, \"least_visits\": {}, \"most_visits\": {}}}",
+        light.reachable, light.covered, light.visits, light.least_visits, light.most_visits);
 }
 
 void print_link(const DisplayDescription& display, const host::Plan& plan, const host::LinkCeiling& ceiling) {
@@ -210,9 +233,10 @@ void print_json(const DisplayDescription& display, const host::LinkCeiling& ceil
         "{{\"display\": {}, \"verdict\": {}, \"samples\": {}, \"slices\": {}, \"format\": \"{}\",\n"
         " \"cartesian\": [{}], \"cartesian_voxels\": {}, \"frames_per_second\": {},\n",
         json_string(display.name.view()), json_string(verdict(plan)), plan.samples, display.slices,
-        to_string(display.format), fmt::join(plan.cartesian_size, ", "), plan.cartesian_voxels,
+        to_string(display.format), fmt::join(plan.cartesian_size, ", "), plan.bright.voxels,
         number(plan.frames_per_second));
     fmt::print(" \"frame_bytes\": {}, \"frame_wire_bytes\": {:.0f},\n", frame_bytes(display), link.frame_wire_bytes);
+    fmt::print(" \"bright\": {}, \"uniform\": {},\n", coverage_json(plan.bright), coverage_json(plan.uniform));
     fmt::print(" \"example\": {{\"white\": {}, \"gradient\": {}, \"lit\": {}, \"measured_slices\": {}}},\n",
                example_json(example.constant), example_json(example.gradient), number(example.lit),
                example.measured_slices);
@@ -272,6 +296,7 @@ Expected<void> plan(const PlanOptions& options) {
     }
     fmt::print("{} over {}: {}\n\n", display->name.view(), ceiling->name, verdict(plan));
     print_frame(*display, plan, *example);
+    print_light(plan);
     print_link(*display, plan, *ceiling);
     print_scan(*display, plan.scan);
     print_current(plan.current);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "driver/display/toml.h"
+#include "driver/host/faults.h"
+#include "sim/optics.h"
 #include "sim/simulator.h"
 #include "sim/statistics.h"
 #include "tools/clock.h"
@@ -20,6 +22,11 @@ namespace {
 
 /// A client that says nothing for so long makes room for the next one. A host that is there sends twice a second.
 constexpr std::uint64_t kPatience_ns = 5'000'000'000;
+
+const char* why_dark(const wire::DeviceStatus& status) {
+    if (status.fault == wire::Fault::SilentHost) return "the host fell silent";
+    return status.fault == wire::Fault::None ? "blanked" : host::describe(status.fault);
+}
 
 /// Lines for people, or objects for programs, at once: a reader at a pipe sees them when they happen.
 class Events {
@@ -45,15 +52,15 @@ public:
         if (shown.page.data() == last_page_ && shown.brightness == last_brightness_) return;
         last_page_ = shown.page.data();
         last_brightness_ = shown.brightness;
-        const sim::LightField light = simulator.light();
         if (json_) {
-            std::string object = sim::to_json(sim::measure(display_, light, status));
+            std::string object = sim::to_json(sim::measure(display_, simulator.light(), status));
             while (object.ends_with('\n')) object.pop_back();
             fmt::print("{{\"event\": \"shown\", \"light\": {}}}\n", object);
         } else if (status.blank != 0) {
-            fmt::print("dark: {}\n", status.fault == wire::Fault::SilentHost ? "the host fell silent" : "blanked");
+            fmt::print("dark: {}\n", why_dark(status));
         } else {
-            fmt::print("frame {}: {} pixels lit\n", status.shown_frame, thousands(light.flashes.size()));
+            fmt::print("frame {}: {} pixels lit\n", status.shown_frame,
+                       thousands(sim::count_lit(display_, shown.page)));
         }
         std::fflush(stdout);
     }

@@ -86,7 +86,8 @@ Expected<StreamDelivery> stream_in_process(const DeliveryOptions& options, const
         }
     }
     StreamDelivery delivery{session.statistics(), stream.statistics(), true, std::nullopt};
-    Expected<LightSeen> seen = look_at(*simulator, now_ns, frame_pixels(display) / 8, options, png);
+    const std::size_t lit = sim::count_lit(display, simulator->device().shown().page);
+    Expected<std::optional<LightSeen>> seen = look_at(*simulator, now_ns, lit, options, png);
     if (!seen) return tl::unexpected(seen.error());
     delivery.light = std::move(*seen);
     return delivery;

@@ -7,7 +7,6 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "driver/display/lattice.h"
 #include "driver/display/timing.h"
@@ -39,22 +38,6 @@ constexpr std::uint64_t kPacketBytes = 4096;
 
 bool turns(const DisplayDescription& display) {
     return display.kind == DisplayKind::RotatingPanel || display.kind == DisplayKind::Helix;
-}
-
-/// Distances between pixels, for the Cartesian volume of the display's box.
-glm::dvec3 pitches_mm(const DisplayDescription& display, const DisplayExtent& room) {
-    const Panel& first = display.panels[0];
-    if (display.kind == DisplayKind::FreePoints) return glm::dvec3(first.column_pitch_mm);
-    if (display.kind != DisplayKind::RotatingPanel) {
-        return {first.column_pitch_mm, first.row_pitch_mm, (room.upper.z - room.lower.z) / display.slices};
-    }
-    double along = upright_column_pitch_mm(first);
-    double up = upright_row_pitch_mm(first);
-    for (std::uint32_t p = 1; p < display.panel_count; ++p) {
-        along = std::min(along, upright_column_pitch_mm(display.panels[p]));
-        up = std::min(up, upright_row_pitch_mm(display.panels[p]));
-    }
-    return {along, along, up};
 }
 
 std::uint32_t whole_slices(double slices) {
@@ -190,12 +173,11 @@ Plan make_plan(const DisplayDescription& display, const LinkCeiling& link, const
     Plan plan;
     plan.samples = frame_pixels(display);
     const DisplayExtent room = extent(display);
-    const glm::dvec3 counts = glm::max(glm::round((room.upper - room.lower) / pitches_mm(display, room)), 1.0);
-    for (int axis = 0; axis < 3; ++axis) {
-        plan.cartesian_size[static_cast<std::size_t>(axis)] =
-            static_cast<std::uint32_t>(std::min(counts[axis], 4294967295.0));
-    }
-    plan.cartesian_voxels = std::uint64_t{plan.cartesian_size[0]} * plan.cartesian_size[1] * plan.cartesian_size[2];
+    const DisplayLattice lattice(display);
+    const SliceMap map(display, lattice);
+    plan.cartesian_size = {map.grid().nx, map.grid().ny, map.grid().nz};
+    plan.bright = map.coverage(LightMode::Bright);
+    plan.uniform = map.coverage(LightMode::Uniform);
     plan.frames_per_second = display.cycles_per_second;
     plan.link = plan_link(display, link, example);
     plan.scan = plan_scan(display);

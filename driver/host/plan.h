@@ -11,6 +11,7 @@
 
 #include "driver/display/description.h"
 #include "driver/host/example_frames.h"
+#include "driver/host/slice_map.h"
 #include "voxelizer/error.h"
 
 namespace xorvox::host {
@@ -79,8 +80,9 @@ struct MotionPlan {
 
 struct Plan {
     std::uint64_t samples = 0;                      ///< Of a frame.
-    std::array<std::uint32_t, 3> cartesian_size{};  ///< Voxels of the display's own pitch in its box.
-    std::uint64_t cartesian_voxels = 0;
+    std::array<std::uint32_t, 3> cartesian_size{};  ///< Of cartesian_grid().
+    SliceCoverage bright;                           ///< How its voxels are lit when all samples are,
+    SliceCoverage uniform;                          ///< and in uniform mode.
     double frames_per_second = 0.0;
     LinkPlan link;
     ScanPlan scan;

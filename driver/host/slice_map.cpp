@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,45 +15,19 @@ constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 constexpr double kMaxGridVoxels = 1u << 30;
 
 /// The distances at which the display's pixels stand along x, y and z.
-glm::dvec3 pitches_mm(const DisplayDescription& display) {
+glm::dvec3 pitches_mm(const DisplayDescription& display, const DisplayExtent& room) {
     const Panel& first = display.panels[0];
-    switch (display.kind) {
-        case DisplayKind::StackedPlanes: {
-            const DisplayExtent room = extent(display);
-            return {first.column_pitch_mm, first.row_pitch_mm, (room.upper.z - room.lower.z) / display.slices};
-        }
-        case DisplayKind::SweptPlane: {
-            const DisplayExtent room = extent(display);
-            return {first.column_pitch_mm, first.row_pitch_mm, (room.upper.z - room.lower.z) / display.slices};
-        }
-        case DisplayKind::Helix:
-            return {first.column_pitch_mm, first.row_pitch_mm, display.motion.stroke_mm / display.slices};
-        case DisplayKind::FreePoints: return glm::dvec3(first.column_pitch_mm);
-        case DisplayKind::RotatingPanel: break;
+    if (display.kind == DisplayKind::FreePoints) return glm::dvec3(first.column_pitch_mm);
+    if (display.kind != DisplayKind::RotatingPanel) {
+        return {first.column_pitch_mm, first.row_pitch_mm, (room.upper.z - room.lower.z) / display.slices};
     }
-    double along = std::numeric_limits<double>::infinity();
-    double up = along;
-    for (std::uint32_t p = 0; p < display.panel_count; ++p) {
+    double along = upright_column_pitch_mm(first);
+    double up = upright_row_pitch_mm(first);
+    for (std::uint32_t p = 1; p < display.panel_count; ++p) {
         along = std::min(along, upright_column_pitch_mm(display.panels[p]));
         up = std::min(up, upright_row_pitch_mm(display.panels[p]));
     }
     return {along, along, up};
-}
-
-Lattice make_grid(const DisplayDescription& display) {
-    const DisplayExtent room = extent(display);
-    const glm::dvec3 size = room.upper - room.lower;
-    glm::dvec3 counts = glm::clamp(glm::round(size / pitches_mm(display)), 1.0, double{kMaxLatticeSide});
-    // Free points may be few and far apart.
-    const double voxels = counts.x * counts.y * counts.z;
-    if (voxels > kMaxGridVoxels) counts = glm::max(glm::floor(counts * std::cbrt(kMaxGridVoxels / voxels)), 1.0);
-    Lattice grid;
-    grid.nx = static_cast<std::uint32_t>(counts.x);
-    grid.ny = static_cast<std::uint32_t>(counts.y);
-    grid.nz = static_cast<std::uint32_t>(counts.z);
-    grid.origin = room.lower;
-    grid.pitch = size / counts;
-    return grid;
 }
 
 /// The voxel, of `count` along one axis, that `place` stands in; the nearest one where rounding leads out of the grid.
@@ -81,8 +56,24 @@ std::vector<std::uint8_t> panels_of_row(const DisplayDescription& display, std::
 
 }  // namespace
 
+Lattice cartesian_grid(const DisplayDescription& display) {
+    const DisplayExtent room = extent(display);
+    const glm::dvec3 size = room.upper - room.lower;
+    glm::dvec3 counts = glm::clamp(glm::round(size / pitches_mm(display, room)), 1.0, double{kMaxLatticeSide});
+    // Free points may be few and far apart.
+    const double voxels = counts.x * counts.y * counts.z;
+    if (voxels > kMaxGridVoxels) counts = glm::max(glm::floor(counts * std::cbrt(kMaxGridVoxels / voxels)), 1.0);
+    Lattice grid;
+    grid.nx = static_cast<std::uint32_t>(counts.x);
+    grid.ny = static_cast<std::uint32_t>(counts.y);
+    grid.nz = static_cast<std::uint32_t>(counts.z);
+    grid.origin = room.lower;
+    grid.pitch = size / counts;
+    return grid;
+}
+
 SliceMap::SliceMap(const DisplayDescription& display, const DisplayLattice& lattice)
-    : display_lattice_(lattice), grid_(make_grid(display)), radius_mm_(extent(display).radius_mm) {
+    : display_lattice_(lattice), grid_(cartesian_grid(display)), radius_mm_(extent(display).radius_mm) {
     const Lattice view = lattice.view();
     if (view.is_regular()) {
         grid_ = view;
@@ -283,7 +274,6 @@ SliceCoverage SliceMap::coverage(LightMode mode) const {
     // Where all columns have the same heights, visits are those of the plan times those of the heights.
     const std::size_t layer = std::size_t{grid_.nx} * grid_.ny;
     std::vector<std::uint32_t> of_place(has_own_heights() ? result.voxels : layer);
-    std::vector<std::uint32_t> of_height(has_own_heights() ? 1 : grid_.nz, has_own_heights() ? 1 : 0);
     for (std::uint32_t y = 0; y < lattice.ny; ++y) {
         for (std::uint32_t x = 0; x < lattice.nx; ++x) {
             if (!has_own_heights()) {
@@ -296,19 +286,24 @@ SliceCoverage SliceMap::coverage(LightMode mode) const {
             if (!uniform || is_lit(x, y, 0)) ++of_place[voxel(x, y, 0)];
         }
     }
+    // How many heights are visited so often.
+    std::map<std::uint32_t, std::size_t> heights_by_visits{{1, 1}};
     if (!has_own_heights()) {
+        std::vector<std::uint32_t> of_height(grid_.nz);
         for (std::uint32_t k = 0; k < lattice.nz; ++k) of_height[heights_[k]] += uniform ? lit_heights_[k] : 1u;
+        heights_by_visits.clear();
+        for (const std::uint32_t visits : of_height) ++heights_by_visits[visits];
     }
     result.least_visits = kNobody;
     for (std::size_t place = 0; place < of_place.size(); ++place) {
         const auto column = static_cast<std::uint32_t>(place % layer);
         if (!is_reachable(column % grid_.nx, column / grid_.nx)) continue;
-        for (const std::uint32_t heights : of_height) {
-            ++result.reachable;
-            const std::uint32_t visits = of_place[place] * heights;
+        for (const auto& [of_height, heights] : heights_by_visits) {
+            result.reachable += heights;
+            const std::uint32_t visits = of_place[place] * of_height;
             if (visits == 0) continue;
-            ++result.covered;
-            result.visits += visits;
+            result.covered += heights;
+            result.visits += std::uint64_t{visits} * heights;
             result.least_visits = std::min(result.least_visits, visits);
             result.most_visits = std::max(result.most_visits, visits);
         }

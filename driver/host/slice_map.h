@@ -22,6 +22,10 @@
 
 namespace xorvox::host {
 
+/// The Cartesian volume of a valid display: a regular lattice that fills the box of extent(display), its pitch as near
+/// to the pitches of the display as whole voxels allow.
+Lattice cartesian_grid(const DisplayDescription& display);
+
 enum class LightMode : std::uint8_t { Bright, Uniform };
 
 /// How often the voxels of the Cartesian volume are lit in one cycle when all samples that the mode allows are.
@@ -39,8 +43,7 @@ public:
     /// `display` must be valid; `lattice` is its, and borrowed for the object's life. Throws std::bad_alloc.
     SliceMap(const DisplayDescription& display, const DisplayLattice& lattice);
 
-    /// The Cartesian volume: a regular lattice that fills the box of extent(display), its pitch as near to the pitches
-    /// of the display as whole voxels allow. On even stacks, and planes swept at constant speed, the display's lattice.
+    /// cartesian_grid(display). On even stacks, and planes swept at constant speed, it is the display's lattice.
     const Lattice& grid() const { return grid_; }
 
     /// Gives each sample of the display the bit of the voxel that it stands in. `volume` has the shape of grid(),

@@ -1,33 +1,9 @@
 #include "driver/wire/packet.h"
 
-#include <array>
 #include <cstring>
 
 namespace xorvox::wire {
 namespace {
-
-// Slicing by 4: four bytes a step. Its 4 KiB of tables are a fair share of a microcontroller's flash (slicing by 8
-// takes another 4); on a host it makes about 0.8 GB/s, many times what a USB link moves.
-using CrcTables = std::array<std::array<std::uint32_t, 256>, 4>;
-
-constexpr CrcTables make_crc_tables() {
-    constexpr std::uint32_t kCastagnoliReflected = 0x82F63B78u;
-    CrcTables tables{};
-    for (std::uint32_t byte = 0; byte < 256; ++byte) {
-        std::uint32_t crc = byte;
-        for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1u) != 0 ? kCastagnoliReflected : 0u);
-        tables[0][byte] = crc;
-    }
-    for (std::uint32_t byte = 0; byte < 256; ++byte) {
-        for (std::size_t i = 1; i < tables.size(); ++i) {
-            const std::uint32_t before = tables[i - 1][byte];
-            tables[i][byte] = (before >> 8) ^ tables[0][before & 0xff];
-        }
-    }
-    return tables;
-}
-
-constexpr CrcTables kCrcTables = make_crc_tables();
 
 std::uint32_t load16(const std::byte* at) {
     return std::to_integer<std::uint32_t>(at[0]) | std::to_integer<std::uint32_t>(at[1]) << 8;
@@ -46,21 +22,6 @@ void store32(std::byte* at, std::uint32_t value) {
 }
 
 }  // namespace
-
-std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t crc) {
-    const std::byte* at = bytes.data();
-    std::size_t left = bytes.size();
-    crc = ~crc;
-    for (; left >= 4; left -= 4, at += 4) {
-        crc ^= load32(at);
-        crc = kCrcTables[3][crc & 0xff] ^ kCrcTables[2][crc >> 8 & 0xff] ^ kCrcTables[1][crc >> 16 & 0xff] ^
-              kCrcTables[0][crc >> 24];
-    }
-    for (; left > 0; --left, ++at) {
-        crc = (crc >> 8) ^ kCrcTables[0][(crc ^ std::to_integer<std::uint32_t>(*at)) & 0xff];
-    }
-    return ~crc;
-}
 
 Status encode_packet(const Header& header, std::span<const std::byte> payload, std::span<std::byte> out,
                      std::size_t& size) {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 
+#include "driver/wire/crc32c.h"
 #include "voxelizer/status.h"
 
 namespace xorvox::wire {
@@ -52,10 +53,6 @@ struct Header {
 constexpr bool is_newer(std::uint32_t a, std::uint32_t b) {
     return static_cast<std::int32_t>(a - b) > 0;
 }
-
-/// CRC-32C (Castagnoli, reflected, initial and final value ~0) of `bytes`, continuing from `crc`: crc32c(b, crc32c(a))
-/// is that of a followed by b.
-std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t crc = 0);
 
 /// Writes header, `payload` and CRC to the start of `out` and sets `size`. `payload` may already stand in `out` at
 /// kHeaderBytes (the usual way: no copy). Header::length is taken from `payload`.

@@ -42,7 +42,9 @@ TEST_CASE("a frame is planned with its voxels and its bytes", "[plan]") {
     const Plan plan = planned(large_rotor(), "usb-hs");
     CHECK(plan.samples == 5'898'240);
     CHECK(plan.cartesian_size == std::array<std::uint32_t, 3>{128, 128, 64});
-    CHECK(plan.cartesian_voxels == 1'048'576);
+    CHECK(plan.bright.voxels == 1'048'576);
+    CHECK(plan.bright.visits > 2 * plan.uniform.visits);
+    CHECK(plan.uniform.most_visits == 2);  // Once a panel.
     CHECK(plan.frames_per_second == 20.0);
     // 5,898,240 bytes in chunks of 65,536 − 20 − 13: 91 of them, and frame-begin and frame-end.
     CHECK(plan.link.frame_wire_bytes == 5'898'240 + 91 * 33 + (21 + 20) + (8 + 20));
