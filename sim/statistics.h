@@ -32,7 +32,8 @@ struct Statistics {
     /// over the lit places. The light of a place is its number of flashes; its volume is the sum over the samples at
     /// it, lit or not, of the space that a sample stands for (SampleVolumes). 1 is even, as are a stack of even planes,
     /// a swept plane of constant speed and a helix; a rotating panel has about r_max ÷ r_min, and a swept sine is
-    /// brighter at its ends. Free points stand for no space: the most flashes ÷ the least. 0: nothing is lit.
+    /// brighter at its ends. Free points stand for no space: the most flashes ÷ the least. 0: nothing is lit. It says
+    /// nothing of a frame whose samples were thinned (host::LightMode::Uniform).
     double brightness_ratio = 0.0;
     bool has_frame = false;
     std::uint32_t frame = 0;  ///< Id of the frame shown, if there is one.

@@ -21,12 +21,15 @@
 namespace xorvox::tools {
 namespace {
 
-void print_light(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
+void print_light(const ShowOptions& show, const std::optional<LightSeen>& light) {
     if (!light) return;
+    const DeliveryOptions& options = show.delivery;
     const sim::Statistics& seen = light->statistics;
     fmt::print("lit: {} pixels at {} places, {} outside the display\n", thousands(seen.pixels_lit),
                thousands(seen.voxels_lit), thousands(seen.light_outside));
-    if (seen.voxels_lit > 0) {
+    // In uniform light most samples near an axis are left out, and those that are lit stand for more than their own
+    // space.
+    if (seen.voxels_lit > 0 && show.light == "bright") {
         fmt::print("brightness: the densest light is {:.3g} times the thinnest\n", seen.brightness_ratio);
     }
     if (!options.png.empty()) {
@@ -76,7 +79,7 @@ Expected<void> show_still(const ShowOptions& options, const transport::Address& 
                thousands(frame_pixels(display)));
     fmt::print("sent to {}: {} bytes as {}\n", to.to, thousands(delivery->session.bytes_raw),
                thousands(delivery->session.bytes_sent));
-    print_light(to, delivery->light);
+    print_light(options, delivery->light);
     return {};
 }
 
@@ -114,7 +117,7 @@ Expected<void> show_spinning(const ShowOptions& options, const transport::Addres
     fmt::print("{}: {} of {} samples were inside at the end\n", display.name.view(), thousands(voxels),
                thousands(frame_pixels(display)));
     print_stream(*delivery);
-    print_light(to, delivery->light);
+    print_light(options, delivery->light);
     return {};
 }
 
