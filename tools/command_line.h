@@ -28,6 +28,7 @@ struct AllOptions {
     ValidateOptions validate;
     PlanOptions plan;
     PatternOptions pattern;
+    ControlOptions control;
 };
 
 /// What a subcommand is, and what runs when it was given.

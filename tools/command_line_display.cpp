@@ -1,4 +1,4 @@
-// The commands about displays: show, sim, displays, validate, plan and pattern.
+// The commands about displays: show, sim, displays, validate, plan, pattern and control.
 #include <fmt/format.h>
 
 #include "tools/command_line.h"
@@ -161,12 +161,41 @@ Command pattern_command(CLI::App& program, PatternOptions& options) {
     return {&app, [&options] { return pattern(options); }};
 }
 
+Command control_command(CLI::App& program, ControlOptions& options) {
+    CLI::App& app = *program.add_subcommand(
+        "control", "Ask a distant display how it is, and tell it: clear a fault, brightness, dark, watchdog");
+    add_display(app, options.display);
+    app.add_option("--to", options.to, "Where it is: tcp:HOST:PORT")->required()->type_name("ADDRESS");
+    const auto add_count = [&app](const std::string& name, std::optional<std::uint32_t>& value, std::uint32_t most,
+                                  const std::string& type, const std::string& help) {
+        app.add_option_function<std::string>(
+               name, [name, &value, most](const std::string& text) { value = parse_count(name, text, most); }, help)
+            ->type_name(type);
+    };
+    add_count("--clear-fault", options.clear_fault, 7, "N",
+              "Clear the fault of this number, once its cause is gone (docs/safety.md)");
+    add_count("--brightness", options.brightness, 255, "N", "Of all light: 0 to 255");
+    add_count("--watchdog", options.watchdog_ms, 3'600'000, "MS",
+              "After how long without a host it goes dark, in milliseconds; 0: never");
+    CLI::Option* const blank = app.add_flag_callback(
+        "--blank", [&options] { options.blank = true; }, "Go dark");
+    app.add_flag_callback(
+           "--light", [&options] { options.blank = false; }, "Show the picture again")
+        ->excludes(blank);
+    app.add_flag("--json", options.json, "One JSON object on standard output");
+    examples(app,
+             "  xorvox control --display vortex --to tcp:127.0.0.1:7777\n"
+             "  xorvox control --display vortex --to tcp:127.0.0.1:7777 --clear-fault 4 --brightness 100");
+    return {&app, [&options] { return control(options); }};
+}
+
 }  // namespace
 
 std::vector<Command> display_commands(CLI::App& program, AllOptions& options) {
     return {show_command(program, options.show),         sim_command(program, options.sim),
             displays_command(program, options.displays), validate_command(program, options.validate),
-            plan_command(program, options.plan),         pattern_command(program, options.pattern)};
+            plan_command(program, options.plan),         pattern_command(program, options.pattern),
+            control_command(program, options.control)};
 }
 
 }  // namespace xorvox::tools

@@ -88,6 +88,16 @@ struct PatternOptions {
     DeliveryOptions delivery;
 };
 
+struct ControlOptions {
+    std::string display;
+    std::string to;
+    std::optional<std::uint32_t> clear_fault;  ///< Number of the fault.
+    std::optional<std::uint32_t> brightness;   ///< 0 … 255.
+    std::optional<std::uint32_t> watchdog_ms;
+    std::optional<bool> blank;
+    bool json = false;
+};
+
 struct PlanOptions {
     std::string display;
     std::string link = "usb-hs";
@@ -139,6 +149,7 @@ Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> bench_displays(const BenchDisplayOptions& options);
 Expected<void> displays(const DisplaysOptions& options);
 Expected<void> validate(const ValidateOptions& options);
+Expected<void> control(const ControlOptions& options);
 Expected<void> plan(const PlanOptions& options);
 Expected<void> pattern(const PatternOptions& options);
 

@@ -23,7 +23,8 @@ Outcome succeeds(const std::vector<std::string>& arguments) {
 
 TEST_CASE("every subcommand has help with an example", "[cli]") {
     CHECK_THAT(succeeds({"--help"}).out, Catch::Contains("voxelize") && Catch::Contains("Examples"));
-    for (const std::string command : {"info", "voxelize", "show", "sim", "displays"}) {
+    for (const std::string command :
+         {"info", "voxelize", "show", "sim", "displays", "validate", "plan", "pattern", "control"}) {
         CHECK_THAT(succeeds({command, "--help"}).out, Catch::Contains("xorvox " + command));
     }
     CHECK_THAT(succeeds({"--version"}).out, Catch::StartsWith("xorvox "));

@@ -108,6 +108,45 @@ TEST_CASE("a model that turns into a file gives the same recording every time", 
     CHECK(read_file(folder.path("a")).size() > 10'000);
 }
 
+TEST_CASE("a distant display tells how it is, and does what it is told", "[cli]") {
+    Background display({"sim", "--display", "cube8-595", "--listen", "tcp:0"});
+    const std::string line = display.line().value_or("");
+    const std::string address = line.substr(line.rfind("tcp:"));
+    const auto control = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"control", "--display", "cube8-595", "--to", address};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_program(arguments);
+    };
+    CHECK_THAT(control({}).out, Catch::Contains("no frame yet") && Catch::Contains("no fault"));
+    succeeds({"show", kDuck, "--display", "cube8-595", "--to", address});
+    const std::string told = control({"--brightness", "7", "--blank", "--watchdog", "0", "--json"}).out;
+    CHECK(number(told, "brightness") == 7);
+    CHECK(number(told, "watchdog_ms") == 0);
+    CHECK(number(told, "frame") == 1);
+    CHECK_THAT(told, Catch::Contains("\"blank\": true"));
+    CHECK_THAT(control({"--light", "--clear-fault", "4", "--json"}).out, Catch::Contains("\"blank\": false"));
+    CHECK(control({"--clear-fault", "0"}).status == 2);
+    CHECK(control({"--clear-fault", "8"}).status == 2);
+    CHECK(control({"--brightness", "256"}).status == 2);
+    CHECK(control({"--blank", "--light"}).status == 2);
+    CHECK(run_program({"control", "--display", "cube8-595", "--to", "file:x"}).status == 2);
+}
+
+TEST_CASE("a display whose host fell silent says so, and the next host clears that fault", "[cli]") {
+    Background display({"sim", "--display", "cube8-595", "--listen", "tcp:0"});
+    const std::string line = display.line().value_or("");
+    const std::string address = line.substr(line.rfind("tcp:"));
+    succeeds({"control", "--display", "cube8-595", "--to", address, "--watchdog", "20"});
+    succeeds({"show", kDuck, "--display", "cube8-595", "--to", address});
+    std::string said;
+    while (said.find("dark: the host fell silent") == said.npos) {
+        const std::optional<std::string> more = display.line();
+        REQUIRE(more.has_value());
+        said = *more;
+    }
+    CHECK_THAT(succeeds({"control", "--display", "cube8-595", "--to", address}).out, Catch::Contains("no fault"));
+}
+
 TEST_CASE("bench displays tells headroom and resampling for each display", "[cli]") {
     const Folder folder;
     const std::string rotor = folder.file("rotor.toml", kRotor);
