@@ -1,5 +1,7 @@
 #include "driver/display/rules.h"
 
+#include <algorithm>
+
 #include <utility>
 
 #include <fmt/format.h>
@@ -207,7 +209,9 @@ std::optional<std::string> check(double value, const Range& range) {
 bool gives_wiring(const DisplayDescription& display) {
     const DriverChip driver = display.scan.driver;
     if (driver == DriverChip::Hub75 || driver == DriverChip::ShiftRegister595) return true;
-    for (std::size_t p = 0; p < display.panel_count; ++p) {
+    // Not checked yet: it may count more panels than there can be.
+    const std::size_t panels = std::min<std::size_t>(display.panel_count, kMaxPanels);
+    for (std::size_t p = 0; p < panels; ++p) {
         if (display.panels[p].connector != 0 || display.panels[p].chain_position != 0) return true;
     }
     return false;
