@@ -17,6 +17,16 @@ constexpr float kWhite = 250.0f;       ///< What endless light becomes, of 255.
 constexpr float kExposure = 1.2f;      ///< White in full light is shown near kWhite.
 constexpr float kGlowOnObject = 0.2f;  ///< More would take the contrast from the object's shading.
 
+/// The running sums of a blur would carry what is no number over all the rest of the picture.
+std::vector<glm::vec4> finite(std::vector<glm::vec4> pixels) {
+    for (glm::vec4& pixel : pixels) {
+        for (int channel = 0; channel < 4; ++channel) {
+            if (!std::isfinite(pixel[channel])) pixel[channel] = 0.0f;
+        }
+    }
+    return pixels;
+}
+
 /// The mean over 2·radius + 1 pixels along every row of `lines`, and rows become columns.
 std::vector<glm::vec3> box_blur_turned(const std::vector<glm::vec3>& lines, std::uint32_t width, std::uint32_t height,
                                        std::uint32_t radius) {
@@ -69,23 +79,23 @@ glm::vec3 tone(const glm::vec3& light) {
 }  // namespace
 
 Image develop(const Film& film, float glow) {
-    std::vector<glm::vec3> bright(film.pixels.size());
-    for (std::size_t i = 0; i < bright.size(); ++i) bright[i] = glm::vec3(film.pixels[i]) * film.pixels[i].w;
+    const std::vector<glm::vec4> pixels = finite(film.pixels);
+    std::vector<glm::vec3> bright(pixels.size());
+    for (std::size_t i = 0; i < bright.size(); ++i) bright[i] = glm::vec3(pixels[i]) * pixels[i].w;
     const std::uint32_t narrow = std::max(1u, film.height / 120);
     const std::vector<glm::vec3> near_glow = blur(bright, film.width, film.height, narrow);
     const std::vector<glm::vec3> far_glow = blur(near_glow, film.width, film.height, 4 * narrow);
 
     Image image{film.width, film.height, {}};
-    image.rgb.reserve(3 * film.pixels.size());
+    image.rgb.reserve(3 * pixels.size());
     for (std::uint32_t row = 0; row < film.height; ++row) {
         const float down = (static_cast<float>(row) + 0.5f) / static_cast<float>(film.height);
         const glm::vec3 ground = glm::mix(kGroundTop, kGroundBottom, down);
         for (std::uint32_t column = 0; column < film.width; ++column) {
             const std::size_t i = std::size_t{row} * film.width + column;
-            const float bare = 1.0f - film.pixels[i].w;
+            const float bare = 1.0f - pixels[i].w;
             const glm::vec3 halo = glow * (0.5f * near_glow[i] + 0.5f * far_glow[i]);
-            const glm::vec3 light =
-                glm::vec3(film.pixels[i]) + bare * ground + glm::mix(kGlowOnObject, 1.0f, bare) * halo;
+            const glm::vec3 light = glm::vec3(pixels[i]) + bare * ground + glm::mix(kGlowOnObject, 1.0f, bare) * halo;
             const float rounding = dither(column, row);
             const glm::vec3 shown = tone(light);
             for (int channel = 0; channel < 3; ++channel) {

@@ -18,7 +18,8 @@ struct Film {
     std::vector<glm::vec4> pixels;  ///< width · height.
 };
 
-/// Makes the image. `glow`: how strongly bright parts shine into their surroundings, 0 … 1.
+/// Makes the image. `glow`: how strongly bright parts shine into their surroundings, 0 … 1. Channels of the film that
+/// are no finite number count as 0, and harm no other pixel.
 Image develop(const Film& film, float glow);
 
 /// Share of the film's pixels of which the object takes at least half.

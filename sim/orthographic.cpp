@@ -26,6 +26,7 @@ constexpr float kFarthest = 0.3f;    ///< Brightness of the farthest light.
 constexpr float kGlow = 0.2f;
 constexpr glm::vec3 kTile(0.005f, 0.006f, 0.0085f);   ///< Added to the ground behind a view,
 constexpr glm::vec3 kInside(0.011f, 0.013f, 0.018f);  ///< and where the display is.
+constexpr glm::vec3 kMark(0.040f, 0.050f, 0.068f);
 
 /// Which way the world lies in a view: the axes that run to the right, up, and towards who looks.
 struct View {
@@ -57,6 +58,20 @@ Box box_of(const std::vector<Voxel>& voxels) {
         box.lower = glm::min(box.lower, voxel.place_mm - upright_half(voxel));
         box.upper = glm::max(box.upper, voxel.place_mm + upright_half(voxel));
     }
+    return box;
+}
+
+/// The box that holds all of a display, its marks, and light outside of it.
+Box box_of(const DisplayExtent& display, const std::vector<Segment>& marked, const std::vector<Voxel>& voxels) {
+    Box box{display.lower, display.upper};
+    const auto include = [&box](const glm::dvec3& lower, const glm::dvec3& upper) {
+        box.lower = glm::min(box.lower, lower);
+        box.upper = glm::max(box.upper, upper);
+    };
+    for (const Segment& mark : marked) include(glm::min(mark.from_mm, mark.to_mm), glm::max(mark.from_mm, mark.to_mm));
+    if (voxels.empty()) return box;
+    const Box light = box_of(voxels);
+    include(light.lower, light.upper);
     return box;
 }
 
@@ -120,6 +135,23 @@ public:
                 const bool inside =
                     round ? std::hypot(u, v) <= display.radius_mm : u <= half[view_.right] && v <= half[view_.up];
                 pixel(column, row) = glm::vec4(inside ? kInside : kTile, 0.0f);
+            }
+        }
+    }
+
+    /// Draws a line on the ground; what is drawn after it hides it.
+    void draw(const Segment& line) {
+        const glm::dvec2 from(column_at(line.from_mm[view_.right]), row_at(line.from_mm[view_.up]));
+        const glm::dvec2 to(column_at(line.to_mm[view_.right]), row_at(line.to_mm[view_.up]));
+        const double steps = std::ceil(glm::distance(from, to)) + 1.0;
+        for (double step = 0.0; step <= steps; ++step) {
+            const glm::dvec2 at = glm::mix(from, to, step / steps);
+            const Range columns = range(at.x - 1.0, at.x + 1.0, width_);
+            const Range rows = range(at.y - 1.0, at.y + 1.0, height_);
+            for (std::uint32_t row = rows.first; row < rows.last; ++row) {
+                for (std::uint32_t column = columns.first; column < columns.last; ++column) {
+                    pixel(column, row) = glm::vec4(kMark, 0.0f);
+                }
             }
         }
     }
@@ -208,17 +240,22 @@ private:
 
 }  // namespace
 
-Picture render_orthographic(const DisplayDescription& display, const LightField& field, std::uint32_t side) {
+Picture render_orthographic(const DisplayDescription& display, const LightField& field, std::uint32_t side,
+                            Framing framing) {
     assert(side >= 16 && side <= 2048);
     const std::vector<Voxel> voxels = visible_voxels(display, field);
     const DisplayExtent space = drawn_extent(display);
-    const Box box = voxels.empty() ? Box{space.lower, space.upper} : box_of(voxels);
+    std::vector<Segment> marked;
+    if (framing == Framing::Display) marked = marks(display);
+    const bool whole = framing == Framing::Display || voxels.empty();
+    const Box box = whole ? box_of(space, marked, voxels) : box_of(voxels);
     const Layout layout(box, side);
 
     Film sheet{3 * side, side, std::vector<glm::vec4>(std::size_t{3} * side * side)};
     for (std::size_t i = 0; i < kViews.size(); ++i) {
         Canvas canvas(kViews[i], box, layout.width[i], layout.height, layout.label_space, layout.scale);
         canvas.draw_ground(space);
+        for (const Segment& mark : marked) canvas.draw(mark);
         for (const Voxel& voxel : voxels) canvas.draw(voxel);
         canvas.put(sheet, layout.left[i], layout.gutter);
         draw_label(sheet, kViews[i].name, layout.left[i] + layout.gutter, 2 * layout.gutter, layout.label_size);

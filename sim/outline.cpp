@@ -100,4 +100,25 @@ std::vector<Segment> outline(const DisplayDescription& display) {
     return segments;
 }
 
+std::vector<Segment> marks(const DisplayDescription& display) {
+    const DisplayExtent box = drawn_extent(display);
+    const double size = 0.04 * std::max({box.upper.x - box.lower.x, box.upper.y - box.lower.y, 0.0});
+    const glm::dvec3 along(size, 0.0, 0.0);
+    const glm::dvec3 steep(0.0, size * std::numbers::sqrt2 / 2.0, size * std::numbers::sqrt2 / 2.0);
+    const glm::dvec3 foot(box.upper.x, (box.lower.y + box.upper.y) / 2.0, box.lower.z);
+    const glm::dvec3 tip = foot + 2.0 * along;
+    const glm::dvec3 letter = tip + 1.2 * along;
+    std::vector<Segment> segments{{foot, tip}};
+    for (const double sign : {-1.0, 1.0}) {
+        // Leaning back, so that they are seen from the front and from above.
+        const glm::dvec3 stroke = 0.5 * (along + sign * steep);
+        segments.push_back({tip - along + 0.5 * sign * steep, tip});
+        segments.push_back({letter - stroke, letter + stroke});
+    }
+    if (display.kind == DisplayKind::RotatingPanel || display.kind == DisplayKind::Helix) {
+        segments.push_back({{0.0, 0.0, box.lower.z - 1.5 * size}, {0.0, 0.0, box.upper.z + 1.5 * size}});
+    }
+    return segments;
+}
+
 }  // namespace xorvox::sim

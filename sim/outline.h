@@ -23,4 +23,8 @@ DisplayExtent drawn_extent(const DisplayDescription& display);
 /// The twelve edges of the box, or the rims of the cylinder with rings on its floor; of drawn_extent.
 std::vector<Segment> outline(const DisplayDescription& display);
 
+/// Where the display lies in the world, for pictures of all of it: an arrow to +x with an x, along the middle of the
+/// floor from the outline outwards, and the axis of what turns, which sticks out of the outline at both ends.
+std::vector<Segment> marks(const DisplayDescription& display);
+
 }  // namespace xorvox::sim

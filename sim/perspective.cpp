@@ -215,12 +215,19 @@ struct Scene {
 
 Scene make_scene(const DisplayDescription& display, const LightField& field, const PictureOptions& options) {
     const std::vector<Voxel> voxels = visible_voxels(display, field);
-    const std::vector<Segment> segments = outline(display);
+    std::vector<Segment> segments = outline(display);
     std::vector<Target> targets;
     for (const Voxel& voxel : voxels)
         targets.push_back({voxel.place_mm, kVoxelFilling * glm::length(voxel.half_mm) / 1.7});
-    if (targets.empty()) {
-        for (const Segment& segment : segments) targets.push_back({segment.from_mm, 0.0});
+    if (options.framing == Framing::Display) {
+        const std::vector<Segment> more = marks(display);
+        segments.insert(segments.end(), more.begin(), more.end());
+    }
+    if (options.framing == Framing::Display || voxels.empty()) {
+        for (const Segment& segment : segments) {
+            targets.push_back({segment.from_mm, 0.0});
+            targets.push_back({segment.to_mm, 0.0});
+        }
     }
     Scene scene;
     scene.camera =

@@ -16,11 +16,18 @@
 
 namespace xorvox::sim {
 
+/// What a picture is filled with.
+enum class Framing : std::uint8_t {
+    Object,  ///< What is lit, as large as it fits. Nothing lit: the display.
+    Display  ///< All of the display, wherever it is lit, and light outside of it; +x and the axis of what turns marked.
+};
+
 struct PictureOptions {
     std::uint32_t width = 960;    ///< 16 … 4096.
     std::uint32_t height = 720;   ///< 16 … 4096.
     double azimuth_deg = 30.0;    ///< Where the camera stands: 0 in front (at -y), 90 on the right (+x).
     double elevation_deg = 22.0;  ///< And how high: -89 … 89; 90 would look straight down.
+    Framing framing = Framing::Object;
     gl::ContextKind context = gl::ContextKind::Auto;
 };
 
@@ -32,16 +39,17 @@ struct Picture {
     std::string drawn_by;  ///< The OpenGL context and renderer, or "CPU".
 };
 
-/// A view in perspective from slightly above: the camera looks from the side of azimuth_deg, as near as the lit object
-/// fits, before a dark ground with the display's outline. Nothing lit: the outline alone.
+/// A view in perspective from slightly above: the camera looks from the side of azimuth_deg, as near as what it
+/// frames fits, before a dark ground with the display's outline.
 /// Errors: options out of range; no OpenGL (the message says what was tried and what to install).
 Expected<Picture> render_perspective(const DisplayDescription& display, const LightField& field,
                                      const PictureOptions& options = {});
 
 /// Three views side by side at one scale, without OpenGL: front (from -y: x to the right, z up), side (from +x: y to
 /// the right, z up) and top (from +z: x to the right, y up), with their names from 240 pixels on. The scale is the
-/// largest at which the lit object fits, with a margin; nothing lit: the display. What is nearer is brighter; the
-/// ground is lighter where the display is. The picture is 3·`side` pixels wide and `side` high. `side`: 16 … 2048.
-Picture render_orthographic(const DisplayDescription& display, const LightField& field, std::uint32_t side = 480);
+/// largest at which what it frames fits, with a margin. What is nearer is brighter; the ground is lighter where the
+/// display is. The picture is 3·`side` pixels wide and `side` high. `side`: 16 … 2048.
+Picture render_orthographic(const DisplayDescription& display, const LightField& field, std::uint32_t side = 480,
+                            Framing framing = Framing::Object);
 
 }  // namespace xorvox::sim

@@ -59,6 +59,10 @@ vec3 to_voxel(vec3 v) {
 vec3 to_world(vec3 v) {
     return vec3(v.x * voxel_across + v.y * vec2(-voxel_across.y, voxel_across.x), v.z);
 }
+vec3 unit_or(vec3 v, vec3 otherwise) {
+    float size = length(v);
+    return size > 1e-6 ? v / size : otherwise;
+}
 void main() {
     vec3 ray = normalize(voxel_place + from_middle);
     // Units in which the ellipsoid is the unit ball, from the square and not from the eye: small numbers keep their digits.
@@ -75,9 +79,10 @@ void main() {
     vec3 bead = normalize(to_world((start + t * step) / voxel_half));
     // The bead's own normal decides where the body is too thin to have one.
     float body = 0.7 * smoothstep(-0.4, 0.1, dot(voxel_normal, -ray)) * (1.0 - smoothstep(0.65, 0.9, voxel_open));
-    vec3 n = normalize(mix(bead, voxel_normal, body));
+    vec3 n = unit_or(mix(bead, voxel_normal, body), bead);
     float lit = max(dot(n, lamp) + 0.1, 0.0) / 1.1;
-    float rim = pow(1.0 - max(dot(n, -ray), 0.0), 3.0);
+    // Rounding makes the product of two unit vectors a little more than 1, and a power of a negative number is none.
+    float rim = pow(1.0 - clamp(dot(n, -ray), 0.0, 1.0), 3.0);
     float sky = smoothstep(0.0, 0.6, voxel_open);
     film = vec4(voxel_light * (0.05 + 0.17 * sky + 1.05 * lit * mix(0.4, 1.0, sky) + 0.12 * rim), 1.0);
 }
@@ -93,7 +98,8 @@ out float away;
 void main() {
     vec4 a = to_clip * vec4(from, 1.0);
     vec4 b = to_clip * vec4(to, 1.0);
-    vec2 run = normalize((b.xy / b.w - a.xy / a.w) / half_width);
+    vec2 way = (b.xy / b.w - a.xy / a.w) / half_width;
+    vec2 run = dot(way, way) > 0.0 ? normalize(way) : vec2(1.0, 0.0);  // seen end-on it has no direction
     vec4 end = gl_VertexID >= 2 ? b : a;
     float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
     away = end.w;

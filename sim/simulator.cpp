@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,9 +15,53 @@
 #include "driver/display/toml.h"
 
 namespace xorvox::sim {
+namespace {
+
+/// How the frames of `built` differ from those of `display`; empty: not at all.
+std::string other_layout(const DisplayDescription& display, const DisplayDescription& built) {
+    const auto differ = [](std::string_view what, auto from, auto to) {
+        return fmt::format("{} {} instead of {}", what, to, from);
+    };
+    if (built.kind != display.kind) return "another kind of display";
+    if (built.format != display.format) return differ("format", to_string(display.format), to_string(built.format));
+    if (built.slices != display.slices) return differ("slices", display.slices, built.slices);
+    if (built.panel_count != display.panel_count) return differ("panels", display.panel_count, built.panel_count);
+    for (std::uint32_t p = 0; p < display.panel_count; ++p) {
+        const Panel& from = display.panels[p];
+        const Panel& to = built.panels[p];
+        const std::string of = fmt::format("panel {}: ", p);
+        if (to.columns != from.columns) return of + differ("columns", from.columns, to.columns);
+        if (to.rows != from.rows) return of + differ("rows", from.rows, to.rows);
+    }
+    return {};
+}
+
+Expected<void> check_built(const DisplayDescription& display, const DisplayDescription& built) {
+    if (const Expected<void> valid = validate_display(built); !valid) return valid;
+    const std::string difference = other_layout(display, built);
+    if (difference.empty()) return {};
+    return fail(
+        fmt::format("{} cannot really be built like {}: {}; they must agree in kind, format, slices, and the columns "
+                    "and rows of each panel, so that a frame fits both",
+                    display.name.view(), built.name.view(), difference));
+}
+
+/// By how many slices light comes late, in whole ones, where the index mark is not at the phase that the device goes
+/// by.
+std::int32_t late_slices(const DisplayDescription& display, const DisplayDescription& built) {
+    const double cycles = std::remainder(built.sync.index_phase - display.sync.index_phase, 1.0);
+    const bool sweeps = display.kind == DisplayKind::SweptPlane;
+    const double lit = sweeps ? 0.5 * (1.0 - 2.0 * display.motion.dead_zone) : 1.0;
+    return static_cast<std::int32_t>(std::lround(cycles * display.slices / lit));
+}
+
+}  // namespace
+
 struct Simulator::Impl {
     DisplayDescription display;
+    DisplayDescription built;
     Misbuild misbuild;
+    std::int32_t late_slices = 0;
     std::vector<std::byte> pages;
     std::vector<std::byte> packet;
     device::Device device;
@@ -28,9 +75,15 @@ Simulator::~Simulator() = default;
 
 Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link, const SimulatorOptions& options) {
     if (const Expected<void> valid = validate_display(display); !valid) return tl::unexpected(valid.error());
+    const DisplayDescription& built = options.built ? *options.built : display;
+    if (const Expected<void> same = check_built(display, built); !same) return tl::unexpected(same.error());
     auto impl = std::make_unique<Impl>();
     impl->display = display;
+    impl->built = built;
+    impl->built.motion.dead_zone = display.motion.dead_zone;
+    impl->built.motion.both_ways = display.motion.both_ways;
     impl->misbuild = options.misbuild;
+    impl->late_slices = late_slices(display, built);
     impl->pages.resize(std::size_t{options.pages} * frame_bytes(display));
     impl->packet.resize(options.max_packet_bytes);
 
@@ -73,7 +126,18 @@ std::uint64_t Simulator::next_boundary_ns() const {
 
 LightField Simulator::light() const {
     const device::Shown shown = impl_->device.shown();
-    return expose(impl_->display, shown.page, shown.brightness, impl_->misbuild);
+    const auto expose_late = [&](std::int32_t slices) {
+        Misbuild misbuild = impl_->misbuild;
+        misbuild.phase_slices += slices;
+        return expose(impl_->built, shown.page, shown.brightness, misbuild);
+    };
+    LightField field = expose_late(impl_->late_slices);
+    if (impl_->late_slices != 0 && impl_->display.motion.both_ways) {
+        // A plane that is too high on its way up is as much too low on its way down.
+        const LightField down = expose_late(-impl_->late_slices);
+        field.flashes.insert(field.flashes.end(), down.flashes.begin(), down.flashes.end());
+    }
+    return field;
 }
 
 const device::Device& Simulator::device() const {
@@ -82,6 +146,10 @@ const device::Device& Simulator::device() const {
 
 const DisplayDescription& Simulator::display() const {
     return impl_->display;
+}
+
+const DisplayDescription& Simulator::built() const {
+    return impl_->built;
 }
 
 }  // namespace xorvox::sim

@@ -30,6 +30,15 @@ void add_delivery(CLI::App& app, DeliveryOptions& options) {
                    "What --png draws: perspective (the default), or orthographic: front, side and top")
         ->check(CLI::IsMember({"perspective", "orthographic"}).description(""))
         ->type_name("perspective|orthographic");
+    app.add_option("--frame", options.frame,
+                   "What --png shows: object, what is lit, as large as it fits (the default of show), or display, all "
+                   "of it, with +x and the axis marked (of pattern)")
+        ->check(CLI::IsMember({"object", "display"}).description(""))
+        ->type_name("object|display");
+    app.add_option("--built", options.built,
+                   "The display as it is really built, where it differs from its file: shows what a mistake in the "
+                   "file looks like; needs --to loopback")
+        ->type_name("NAME|FILE.toml");
     app.add_option_function<std::string>(
            "--size", [&options](const std::string& text) { options.size = parse_size("--size", text); },
            "Pixels of --png (default 960x720); an orthographic one has three square views and only a width counts")
@@ -136,7 +145,7 @@ Command plan_command(CLI::App& program, PlanOptions& options) {
         ->type_name("LINK");
     add_positive(
         app, "--gpio-rate", [&options](double hz) { options.gpio_rate_hz = hz; }, "HZ",
-        "Of --link gpio: how often a second the lines can change");
+        "Of --link gpio: how often a second its 8 lines change, one byte each time (1 to 1e10)");
     app.add_flag("--json", options.json, "One JSON object on standard output");
     examples(app,
              "  xorvox plan vortex\n  xorvox plan cube8-595 --link hid-fs\n  xorvox plan mine.toml --link gpio "

@@ -64,7 +64,9 @@ struct PictureSize {
 struct DeliveryOptions {
     std::string to = "loopback";
     std::string png;
-    std::string view;  ///< "perspective", the default of --png, or "orthographic".
+    std::string view;   ///< "perspective", the default of --png, or "orthographic".
+    std::string frame;  ///< What --png shows: "object", what is lit, or "display", all of it; empty: "object".
+    std::string built;  ///< A preset or display file: the simulated display as it is really built; empty: no other.
     std::optional<PictureSize> size;
     bool hold = false;  ///< Stay until a signal.
     bool json = false;
@@ -101,7 +103,7 @@ struct ControlOptions {
 struct PlanOptions {
     std::string display;
     std::string link = "usb-hs";
-    std::optional<double> gpio_rate_hz;  ///< Words a second on the lines of --link gpio.
+    std::optional<double> gpio_rate_hz;  ///< Of --link gpio: bytes a second on its 8 lines.
     bool json = false;
 };
 

@@ -82,7 +82,10 @@ Expected<void> control(const ControlOptions& options) {
     if (!link) return tl::unexpected(link.error());
 
     stop_on_signals();
-    host::Session session(link->get(), *display, session_options(true, *display, {}));
+    host::SessionOptions session_of = session_options(true, *display, {});
+    // Who only asks leaves a display dark that nobody was there for; who wants it lit or dark is somebody.
+    session_of.clears_silence = options.blank.has_value();
+    host::Session session(link->get(), *display, session_of);
     const auto tell = [&](wire::ControlOperation operation, const std::optional<std::uint32_t>& value) {
         if (value) (void)session.control(operation, *value);
     };

@@ -36,23 +36,24 @@ Expected<void> write_png(io::AtomicFile& file, const sim::Image& image) {
 Expected<Delivery> show_in_process(const DeliveryOptions& options, const DisplayDescription& display,
                                    std::span<const std::byte> frame, std::size_t pixels, io::AtomicFile* png) {
     auto [host_end, device_end] = transport::make_loopback();
-    Expected<sim::Simulator> simulator = sim::Simulator::make(display, device_end.get());
-    if (!simulator) return tl::unexpected(simulator.error());
+    Expected<LocalDisplay> local = make_local_display(options, display, device_end.get());
+    if (!local) return tl::unexpected(local.error());
+    sim::Simulator& simulator = local->simulator;
     host::Session session(host_end.get(), display, session_options(true, display, frame));
 
     std::uint64_t now_ns = 0;
     bool submitted = false;
     while (session.statistics().frames_presented == 0) {
         const Status host_moved = session.poll(now_ns);
-        const Status device_moved = simulator->poll(now_ns);
+        const Status device_moved = simulator.poll(now_ns);
         if (session.state() == host::SessionState::Failed) return tl::unexpected(session.error());
         if (!submitted) submitted = session.submit(frame) == Status::Ok;
         if (host_moved == Status::WouldBlock && device_moved == Status::WouldBlock) {
-            now_ns = std::min(simulator->next_boundary_ns(), now_ns + kSimulatedStep_ns);
+            now_ns = std::min(simulator.next_boundary_ns(), now_ns + kSimulatedStep_ns);
         }
     }
     Delivery delivery{session.statistics(), std::nullopt};
-    Expected<std::optional<LightSeen>> seen = look_at(*simulator, now_ns, pixels, options, png);
+    Expected<std::optional<LightSeen>> seen = look_at(simulator, now_ns, pixels, options, png);
     if (!seen) return tl::unexpected(seen.error());
     delivery.light = std::move(*seen);
     return delivery;
@@ -115,6 +116,21 @@ host::SessionOptions session_options(bool two_way, const DisplayDescription& dis
     return options;
 }
 
+Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const DisplayDescription& display,
+                                          Link link) {
+    DisplayFile built;
+    sim::SimulatorOptions wanted;
+    if (!options.built.empty()) {
+        Expected<DisplayFile> file = load_display(options.built);
+        if (!file) return fail("--built: " + file.error().message);
+        built = std::move(*file);
+        wanted.built = built;
+    }
+    Expected<sim::Simulator> simulator = sim::Simulator::make(display, link, wanted);
+    if (!simulator) return tl::unexpected(simulator.error());
+    return LocalDisplay{std::move(built), std::move(*simulator)};
+}
+
 Expected<void> check_delivery(const DeliveryOptions& options, const transport::Address& address,
                               const std::string& input) {
     const bool here = address.kind == transport::AddressKind::Loopback;
@@ -130,6 +146,11 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
     }
     if (!options.view.empty() && options.png.empty())
         return fail("--view says what --png draws; give --png OUT.png too");
+    if (!options.frame.empty() && options.png.empty())
+        return fail("--frame says what --png shows; give --png OUT.png too");
+    if (!options.built.empty() && !here) {
+        return fail("--built is how a display in this program is built and needs --to loopback; leave out one of them");
+    }
     if (options.size) {
         if (options.png.empty()) return fail("--size is that of --png; give --png OUT.png too");
         const auto [width, height] = *options.size;
@@ -158,7 +179,7 @@ Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std:
         warn("the display shows the frame, but its light is not measured: " + fits.error().message);
         return std::optional<LightSeen>();
     }
-    const DisplayDescription& display = simulator.display();
+    const DisplayDescription& display = simulator.built();
     const sim::LightField light = simulator.light();
     LightSeen seen;
     {
@@ -168,11 +189,13 @@ Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std:
     if (png == nullptr) return std::optional(std::move(seen));
     const Progress progress("drawing the picture");
     sim::Picture picture;
+    const sim::Framing framing = options.frame == "display" ? sim::Framing::Display : sim::Framing::Object;
     if (options.view == "orthographic") {
-        picture = options.size ? sim::render_orthographic(display, light, options.size->width / 3)
-                               : sim::render_orthographic(display, light);
+        constexpr std::uint32_t kSide = 480;
+        picture = sim::render_orthographic(display, light, options.size ? options.size->width / 3 : kSide, framing);
     } else {
         sim::PictureOptions wanted;
+        wanted.framing = framing;
         if (options.size) {
             wanted.width = options.size->width;
             wanted.height = options.size->height;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "driver/display/description.h"
+#include "driver/display/toml.h"
 #include "driver/host/session.h"
 #include "sim/simulator.h"
 #include "sim/statistics.h"
@@ -35,13 +36,22 @@ inline constexpr std::uint64_t kSimulatedStep_ns = 100'000'000;
 /// so that equal frames give equal files.
 host::SessionOptions session_options(bool two_way, const DisplayDescription& display, std::span<const std::byte> frame);
 
+/// A display in this program.
+struct LocalDisplay {
+    DisplayFile built;  ///< Of --built: the simulator borrows its points.
+    sim::Simulator simulator;
+};
+/// Switches it on with `link` at its plug.
+Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const DisplayDescription& display, Link link);
+
 /// Measures what `simulator` shows, at most `pixels` of them, and draws it into `png` if there is one. Without enough
 /// memory for that: nothing, with a warning, unless a picture or JSON was asked for.
 Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t pixels,
                                            const DeliveryOptions& options, io::AtomicFile* png);
 
-/// What of `options` can be refused before any work: --png without loopback, its name, --view without it, --hold
-/// without tcp, an output that would overwrite the file `input` (empty: none).
+/// What of `options` can be refused before any work: --png and --built without loopback, the picture's name,
+/// --view, --frame and --size without it, --hold without tcp, an output that would overwrite the file `input` (empty:
+/// none).
 Expected<void> check_delivery(const DeliveryOptions& options, const transport::Address& address,
                               const std::string& input);
 

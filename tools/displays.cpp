@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -20,10 +22,11 @@ namespace {
 
 using display::name_of;
 
-/// A value of a display, by its key in a display file.
+/// A value of a display.
 struct Field {
-    std::string key;
-    std::string text;  ///< For people.
+    std::string key;    ///< In a display file, and in JSON.
+    std::string words;  ///< For people: the key, or what is computed in words.
+    std::string text;   ///< For people.
     std::string json;
 };
 
@@ -36,15 +39,25 @@ struct Section {
     void add(std::string_view key, const Value& value, std::string_view unit = "") {
         const std::string plain = fmt::format("{}", value);
         const bool bare = std::is_arithmetic_v<Value>;
-        fields.push_back({std::string(key), plain + std::string(unit), bare ? plain : json_string(plain)});
+        add_as(key, key, plain + std::string(unit), bare ? plain : json_string(plain));
     }
-    /// A number of which 0 says that nobody knows it.
+    /// A number of which 0 says that nobody knows it, or that there is none.
     template <class Value>
-    void add_known(std::string_view key, const Value& value) {
+    void add_known(std::string_view key, const Value& value, std::string_view otherwise = "unknown") {
+        if (value == Value{}) return add_as(key, key, std::string(otherwise), "null");
         add(key, value);
-        if (value == Value{}) fields.back().text = "unknown";
+    }
+    void add_as(std::string_view key, std::string_view words, std::string text, std::string json) {
+        fields.push_back({std::string(key), std::string(words), std::move(text), std::move(json)});
     }
 };
+
+/// `value` with the unit that leaves 1 to 999.9 of it; each of `units` is 1000 of the one before.
+std::string measure(double value, std::initializer_list<std::string_view> units) {
+    const auto* unit = units.begin();
+    for (; std::abs(value) >= 999.95 && unit + 1 != units.end(); ++unit) value /= 1000.0;
+    return fmt::format("{:.4g} {}", value, *unit);
+}
 
 Section main_section(const DisplayDescription& display) {
     Section section;
@@ -59,8 +72,9 @@ Section main_section(const DisplayDescription& display) {
             section.add("plane_pitch_mm", display.plane_pitch_mm);
         } else {
             const auto heights = display.plane_heights_mm;
-            section.fields.push_back({"plane_heights_mm", fmt::format("from {} to {}", heights.front(), heights.back()),
-                                      fmt::format("[{}]", fmt::join(heights, ", "))});
+            section.add_as("plane_heights_mm", "plane_heights_mm",
+                           fmt::format("from {} to {}", heights.front(), heights.back()),
+                           fmt::format("[{}]", fmt::join(heights, ", ")));
         }
     }
     if (rotor) section.add("sweep_deg", display.sweep_deg);
@@ -71,7 +85,7 @@ Section main_section(const DisplayDescription& display) {
         for (const PointMm& point : display.points) {
             json += fmt::format("{}[{}, {}, {}]", json.empty() ? "[" : ", ", point.x, point.y, point.z);
         }
-        section.fields.push_back({"points", fmt::format("{} places", display.points.size()), json + "]"});
+        section.add_as("points", "points", fmt::format("{} places", display.points.size()), json + "]");
     }
     return section;
 }
@@ -87,8 +101,8 @@ Section motion_section(const DisplayDescription& display) {
     section.add("dead_zone", motion.dead_zone);
     if (motion.table_size > 0) {
         const auto end = motion.table.begin() + motion.table_size;
-        section.fields.push_back({"table", fmt::format("{} heights", motion.table_size),
-                                  fmt::format("[{}]", fmt::join(motion.table.begin(), end, ", "))});
+        section.add_as("table", "table", fmt::format("{} heights", motion.table_size),
+                       fmt::format("[{}]", fmt::join(motion.table.begin(), end, ", ")));
     }
     return section;
 }
@@ -118,10 +132,9 @@ Section sync_section(const DisplayDescription& display) {
     Section section{"sync", {}};
     const Sync& sync = display.sync;
     section.add("index", name_of(display::kIndexNames, sync.index));
-    if (sync.index != IndexSource::None) {
-        section.add("index_pulses", sync.index_pulses);
-        section.add("index_phase", sync.index_phase);
-    }
+    if (sync.index == IndexSource::None) return section;
+    section.add("index_pulses", sync.index_pulses);
+    section.add("index_phase", sync.index_phase);
     const double speed = display.cycles_per_second;
     const double slowest = sync.slowest_cycles_per_second;
     const double fastest = sync.fastest_cycles_per_second;
@@ -143,7 +156,7 @@ Section scan_section(const DisplayDescription& display) {
     section.add("bit_planes", shown_bit_planes(display), fmt::format(" of {}", bits_per_channel(display.format)));
     section.add("bit_order", name_of(display::kBitOrderNames, scan.msb_first));
     section.add("color_order", std::string_view(scan.color_order.data(), scan.color_order.size()));
-    if (keeps_light(display)) {
+    if (has_strings(display)) {
         section.add("strings", scan.strings);
         section.add("serpentine", scan.serpentine);
     }
@@ -158,48 +171,49 @@ Section power_section(const DisplayDescription& display) {
     Section section{"power", {}};
     section.add_known("led_ma", display.power.led_ma);
     section.add("max_duty", display.power.max_duty);
-    section.add_known("limit_ma", display.power.limit_ma);
+    section.add_known("limit_ma", display.power.limit_ma, "none");
     return section;
-}
-
-/// Digits that a measure deserves.
-std::string measure(double value) {
-    return fmt::format("{:.4g}", value);
 }
 
 Section frame_section(const DisplayDescription& display) {
     Section section{"frame", {}};
-    const auto number = [&](std::string_view key, auto value, std::string text) {
-        section.fields.push_back({std::string(key), std::move(text), fmt::format("{}", value)});
+    const auto number = [&](std::string_view key, std::string_view name, auto value, std::string text) {
+        section.add_as(key, name, std::move(text), fmt::format("{}", value));
     };
     const std::size_t bytes = frame_bytes(display);
     const double rate = static_cast<double>(bytes) * display.cycles_per_second;
-    number("bytes", bytes, thousands(bytes));
-    number("pixels", frame_pixels(display), thousands(frame_pixels(display)));
-    number("bytes_per_second", rate, measure(rate / 1e6) + " MB/s");
+    number("bytes", "bytes", bytes, thousands(bytes));
+    number("pixels", "pixels", frame_pixels(display), thousands(frame_pixels(display)));
+    number("bytes_per_second", "data rate", rate, measure(rate, {"B/s", "kB/s", "MB/s", "GB/s", "TB/s"}) + " raw");
     if (display.kind != DisplayKind::StackedPlanes && display.kind != DisplayKind::FreePoints) {
         const double turns = turns_per_second(display);
-        const std::string_view unit = display.kind == DisplayKind::SweptPlane ? "sweeps up and back" : "turns";
-        number("turns_per_second", turns, fmt::format("{} {} a second", turns, unit));
+        const bool sweeps = display.kind == DisplayKind::SweptPlane;
+        number("turns_per_second", sweeps ? "sweeps" : "turns", turns,
+               fmt::format("{}{} a second", turns, sweeps ? " up and down" : ""));
     }
+    const std::string_view of = keeps_light(display) ? "frame" : "slice";
+    const auto time = [](double ns) { return measure(ns, {"ns", "µs", "ms", "s"}); };
     const double slice_ns = slice_time_ns(display);
-    const double scan_ns = scan_time_ns(display, shown_bit_planes(display));
-    number("slice_time_ns", slice_ns, measure(slice_ns / 1e3) + " µs");
-    number("scan_time_ns", scan_ns, scan_ns == 0.0 ? "unknown" : measure(scan_ns / 1e3) + " µs");
+    number("slice_time_ns", fmt::format("time of a {}", of), slice_ns, time(slice_ns));
+    if (const double scan_ns = scan_time_ns(display, shown_bit_planes(display)); scan_ns > 0.0) {
+        number("scan_time_ns", "time that its scan needs", scan_ns, time(scan_ns));
+    } else {
+        section.add_as("scan_time_ns", "time that its scan needs", "unknown", "null");
+    }
     const DisplayExtent box = extent(display);
     const glm::dvec3 size = box.upper - box.lower;
-    section.fields.push_back({"size_mm", fmt::format("{:.6g} x {:.6g} x {:.6g} mm", size.x, size.y, size.z),
-                              fmt::format("[{}, {}, {}]", size.x, size.y, size.z)});
+    section.add_as("size_mm", "size", fmt::format("{:.6g} × {:.6g} × {:.6g} mm", size.x, size.y, size.z),
+                   fmt::format("[{}, {}, {}]", size.x, size.y, size.z));
     if (display.power.led_ma > 0.0) {
         // LEDs that are lit at the same time, in all channels.
         const std::size_t slices = keeps_light(display) ? 1 : display.slices;
         const double lit = static_cast<double>(frame_pixels(display) / slices) / display.scan.row_groups;
         const double channels = bits_per_pixel(display.format) > bits_per_channel(display.format) ? 3.0 : 1.0;
         const double current_ma = lit * channels * display.power.led_ma;
-        number("full_current_ma", current_ma, measure(current_ma / 1e3) + " A with every LED lit");
+        number("full_current_ma", "all white", current_ma, measure(current_ma, {"mA", "A", "kA"}));
     }
     const std::string digest = fmt::format("{:016x}", geometry_digest(display));
-    section.fields.push_back({"geometry_digest", digest, json_string(digest)});
+    section.add_as("geometry_digest", "digest of its geometry", digest, json_string(digest));
     return section;
 }
 
@@ -221,15 +235,15 @@ void print_text(const DisplayFile& display) {
     std::size_t panel = 0;
     for (const Section& section : sections_of(display)) {
         std::string title = section.name == "frame" ? "a frame" : section.name;
-        if (section.name == "panel") title = fmt::format("panel {}", ++panel);
+        if (section.name == "panel") title = fmt::format("panel {}", panel++);
         if (!title.empty()) fmt::print("\n{}\n", title);
         for (const Field& field : section.fields) {
             const std::string path = section.name.empty() ? field.key : fmt::format("{}.{}", section.name, field.key);
             const bool assumed = std::ranges::find(display.assumed, path) != display.assumed.end();
             if (assumed) {
-                fmt::print("  {:<26} {:<16} assumed\n", field.key, field.text);
+                fmt::print("  {:<26} {:<16} assumed\n", field.words, field.text);
             } else {
-                fmt::print("  {:<26} {}\n", field.key, field.text);
+                fmt::print("  {:<26} {}\n", field.words, field.text);
             }
         }
     }
@@ -271,14 +285,16 @@ Expected<void> list_presets(bool json) {
     const char* separator = "";
     if (json) fmt::print("[");
     for (const Preset& preset : presets()) {
+        const auto display = parse_display(preset.text, preset.name);
+        if (!display) return tl::unexpected<Error>(display.error());
         if (json) {
-            const auto display = parse_display(preset.text, preset.name);
-            if (!display) return tl::unexpected<Error>(display.error());
             fmt::print("{}\n  {{\"name\": {}, \"summary\": {}, \"assumed\": {}}}", separator, json_string(preset.name),
                        json_string(preset.summary), json_list(display->assumed));
             separator = ",";
         } else {
-            fmt::print("{:<{}}  {}\n", preset.name, width, preset.summary);
+            const std::size_t assumed = display->assumed.size();
+            fmt::print("{:<{}}  {} ({} value{} assumed)\n", preset.name, width, preset.summary, assumed,
+                       assumed == 1 ? "" : "s");
         }
     }
     if (json) fmt::print("\n]\n");

@@ -1,5 +1,6 @@
 // The program: the command line into a command, its Error into one line and an exit status.
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -122,6 +123,7 @@ void occupy_standard_streams() {
 
 int main(int argc, char** argv) {
     occupy_standard_streams();
+    std::signal(SIGXFSZ, SIG_IGN);        // a file that may not grow is an error of the write, which cleans up
     setenv("EGL_LOG_LEVEL", "fatal", 0);  // Mesa explains itself on standard error; our one line says it
     try {
         return main_program(argc, argv);

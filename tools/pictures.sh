@@ -7,6 +7,10 @@ xorvox="${1:-build/release/bin/xorvox}"
 [[ -x $xorvox ]] || { echo "there is no $xorvox: build it, or give its path" >&2; exit 2; }
 mkdir -p docs/images/displays
 for name in $("$xorvox" displays | cut -d' ' -f1); do
-    "$xorvox" show examples/duck.ply --display "$name" --color gradient:orange,yellow --light uniform --size 480x360 \
+    color=gradient:orange,yellow
+    [[ $name == perspecta ]] && color=constant:yellow # one bit a channel: there is no orange
+    light=uniform
+    [[ $name == candle ]] && light=bright # so few samples that every one is needed
+    "$xorvox" show examples/duck.ply --display "$name" --color "$color" --light "$light" --size 480x360 \
         --png "docs/images/displays/$name.png"
 done

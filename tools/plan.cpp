@@ -2,13 +2,14 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "driver/device/current.h"
 #include "driver/device/device.h"
-#include "driver/device/rotation.h"
+#include "driver/device/scan_control.h"
 #include "driver/display/timing.h"
 #include "driver/display/toml.h"
 #include "driver/host/plan.h"
@@ -23,8 +24,7 @@ namespace {
 constexpr std::uint64_t kMeasuredSamples = 20'000'000;
 
 /// What a device half keeps besides its buffers.
-constexpr std::uint64_t kStateBytes =
-    sizeof(device::Device) + sizeof(device::RotationTracker) + sizeof(device::CurrentConfig);
+constexpr std::uint64_t kStateBytes = sizeof(device::Device) + sizeof(device::ScanControl);
 
 /// 5898240 as "5.9 MB", with `per` after it.
 std::string bytes_text(double bytes, std::string_view per = "") {
@@ -51,8 +51,11 @@ std::string current_text(double ma) {
     return ma < 1000.0 ? fmt::format("{:.3g} mA", ma) : fmt::format("{:.3g} A", ma / 1000.0);
 }
 
+constexpr double kSlowestRate = 0.001;
+
 /// "24" and "19.5", of any size.
 std::string rate_text(double per_second) {
+    if (per_second < kSlowestRate) return "less than 0.001";
     return per_second < 1000.0 ? fmt::format("{:.3g}", per_second) : thousands(static_cast<std::uint64_t>(per_second));
 }
 
@@ -90,8 +93,9 @@ void print_frame(const DisplayDescription& display, const host::Plan& plan, cons
     const char* const scaled = example.measured_slices < display.slices ? "about " : "";
     fmt::print("frame\n");
     line("samples", fmt::format("{} in {} slices", thousands(plan.samples), thousands(display.slices)));
-    line("voxels", fmt::format("{} × {} × {} = {} of its pitch in its box", plan.cartesian_size[0],
-                               plan.cartesian_size[1], plan.cartesian_size[2], thousands(plan.bright.voxels)));
+    line("voxels", fmt::format("{}: the grid of {} × {} × {} that fills its box at its pixel pitch",
+                               thousands(plan.bright.voxels), plan.cartesian_size[0], plan.cartesian_size[1],
+                               plan.cartesian_size[2]));
     line("raw", fmt::format("{} bytes of {}, {} with packet headers", thousands(frame_bytes(display)),
                             to_string(display.format), thousands(static_cast<std::uint64_t>(link.frame_wire_bytes))));
     const auto compressed = [&](const char* name, const host::ExampleBytes& bytes) {
@@ -131,7 +135,30 @@ std::string coverage_json(const host::SliceCoverage& light) {
         light.reachable, light.covered, light.visits, light.least_visits, light.most_visits);
 }
 
-void print_link(const DisplayDescription& display, const host::Plan& plan, const host::LinkCeiling& ceiling) {
+/// What would do where the link does not: "2.4 frames a second in rgb332, 5 in mono4, 10 in mono1", and the links that
+/// carry the display as it is.
+void print_way_out(const host::LinkPlan& link, const std::vector<host::FormatRate>& rates) {
+    std::vector<std::string> ways;
+    for (const host::FormatRate& way : rates) {
+        ways.push_back(fmt::format("{}{} in {}", rate_text(way.frames_per_second),
+                                   ways.empty() ? " frames a second" : "", to_string(way.format)));
+    }
+    if (rates.back().frames_per_second < kSlowestRate) {
+        line("would work", "in no format at as much as a frame in 1000 seconds");
+    } else {
+        line("would work", fmt::format("{}, with compression", fmt::join(ways, ", ")));
+    }
+    std::vector<std::string> links;
+    for (const host::LinkCeiling& other : host::link_ceilings()) {
+        if (link.rate_compressed > other.bytes_per_second) continue;
+        links.push_back(fmt::format("{}{}", other.name, link.rate_raw > other.bytes_per_second ? "" : " (raw)"));
+    }
+    line("", links.empty() ? "over none of the links at its full rate in its own format"
+                           : fmt::format("at its full rate in its own format: over {}", fmt::join(links, ", ")));
+}
+
+void print_link(const DisplayDescription& display, const host::Plan& plan, const host::LinkCeiling& ceiling,
+                const std::vector<host::FormatRate>& rates) {
     const host::LinkPlan& link = plan.link;
     fmt::print("link: {}, {}\n", ceiling.what, bytes_text(ceiling.bytes_per_second, "/s at best"));
     line("needed", fmt::format("{} raw, {} compressed, for {} frames a second", bytes_text(link.rate_raw, "/s"),
@@ -141,13 +168,13 @@ void print_link(const DisplayDescription& display, const host::Plan& plan, const
                                         rate_text(link.frames_per_second_compressed)));
     if (link.fit == host::Fit::Raw) return;
     if (display.kind != DisplayKind::FreePoints) {
-        line("slices that fit",
-             fmt::format("{} raw, about {} compressed, of {}", thousands(link.slices_raw),
-                         thousands(std::min(link.slices_compressed, display.slices)), thousands(display.slices)));
+        line("slices that fit", fmt::format("{} raw, about {} compressed, of {}", thousands(link.slices_raw),
+                                            thousands(link.slices_compressed), thousands(display.slices)));
     }
     std::vector<std::string_view> formats;
     for (const PixelFormat format : link.formats_raw) formats.push_back(to_string(format));
     line("formats that fit", formats.empty() ? "none raw" : fmt::format("{} raw", fmt::join(formats, ", ")));
+    if (link.fit == host::Fit::No) print_way_out(link, rates);
 }
 
 void print_scan(const DisplayDescription& display, const host::ScanPlan& scan) {
@@ -158,7 +185,7 @@ void print_scan(const DisplayDescription& display, const host::ScanPlan& scan) {
         line("needed", "unknown: the display file gives no [scan] times");
     } else {
         line("needed",
-             fmt::format("{} for {} bit plane{} a channel, {:.0f} % of it", time_text(scan.scan_ns), scan.planes_shown,
+             fmt::format("{} for {} bit plane{} a channel, {:.3g} % of it", time_text(scan.scan_ns), scan.planes_shown,
                          scan.planes_shown == 1 ? "" : "s", 100.0 * scan.scan_ns / scan.slice_ns));
         line("bit planes that fit", fmt::format("{} of {}", scan.planes_fit, bits_per_channel(display.format)));
         if (scan.slices_fit > 0.0) line("slices that fit", thousands(static_cast<std::uint64_t>(scan.slices_fit)));
@@ -227,7 +254,7 @@ std::string example_json(const host::ExampleBytes& bytes) {
 }
 
 void print_json(const DisplayDescription& display, const host::LinkCeiling& ceiling, const host::ExampleFrames& example,
-                const host::Plan& plan) {
+                const host::Plan& plan, const std::vector<host::FormatRate>& rates) {
     const host::LinkPlan& link = plan.link;
     fmt::print(
         "{{\"display\": {}, \"verdict\": {}, \"samples\": {}, \"slices\": {}, \"format\": \"{}\",\n"
@@ -242,13 +269,18 @@ void print_json(const DisplayDescription& display, const host::LinkCeiling& ceil
                example.measured_slices);
     std::vector<std::string> formats;
     for (const PixelFormat format : link.formats_raw) formats.push_back(json_string(to_string(format)));
+    std::vector<std::string> ways;
+    for (const host::FormatRate& way : rates) {
+        ways.push_back(fmt::format("{{\"format\": {}, \"frames_per_second\": {}}}", json_string(to_string(way.format)),
+                                   number(way.frames_per_second)));
+    }
     fmt::print(
         " \"link\": {{\"name\": {}, \"bytes_per_second\": {}, \"fits\": \"{}\", \"needed_raw\": {}, "
         "\"needed_compressed\": {}, \"frames_per_second_raw\": {}, \"frames_per_second_compressed\": {}, "
-        "\"slices_raw\": {}, \"slices_compressed\": {}, \"formats_raw\": [{}]}},\n",
+        "\"slices_raw\": {}, \"slices_compressed\": {}, \"formats_raw\": [{}], \"would_work\": [{}]}},\n",
         json_string(ceiling.name), number(ceiling.bytes_per_second), fit_name(link.fit), number(link.rate_raw),
         number(link.rate_compressed), number(link.frames_per_second_raw), number(link.frames_per_second_compressed),
-        link.slices_raw, link.slices_compressed, fmt::join(formats, ", "));
+        link.slices_raw, link.slices_compressed, fmt::join(formats, ", "), fmt::join(ways, ", "));
     const host::ScanPlan& scan = plan.scan;
     const bool timed = scan.scan_ns > 0.0;
     fmt::print(
@@ -290,14 +322,20 @@ Expected<void> plan(const PlanOptions& options) {
     const Expected<host::ExampleFrames> example = host::measure_example(*display, kMeasuredSamples);
     if (!example) return fail(options.display + ": " + example.error().message);
     const host::Plan plan = host::make_plan(*display, *ceiling, *example, kStateBytes);
+    std::vector<host::FormatRate> rates;
+    if (plan.link.fit == host::Fit::No) {
+        Expected<std::vector<host::FormatRate>> measured = host::compressed_rates(*display, *ceiling, kMeasuredSamples);
+        if (!measured) return fail(options.display + ": " + measured.error().message);
+        rates = std::move(*measured);
+    }
     if (options.json) {
-        print_json(*display, *ceiling, *example, plan);
+        print_json(*display, *ceiling, *example, plan, rates);
         return {};
     }
     fmt::print("{} over {}: {}\n\n", display->name.view(), ceiling->name, verdict(plan));
     print_frame(*display, plan, *example);
     print_light(plan);
-    print_link(*display, plan, *ceiling);
+    print_link(*display, plan, *ceiling, rates);
     print_scan(*display, plan.scan);
     print_current(plan.current);
     print_memory(plan.memory);

@@ -32,6 +32,9 @@ void print_light(const ShowOptions& show, const std::optional<LightSeen>& light)
     if (seen.voxels_lit > 0 && show.light == "bright") {
         fmt::print("brightness: the densest light is {:.3g} times the thinnest\n", seen.brightness_ratio);
     }
+    if (show.light == "uniform") {
+        fmt::print("brightness: even; of the samples inside, each voxel has one lit for each panel that passes it\n");
+    }
     if (!options.png.empty()) {
         fmt::print("picture: {}, {:.0f} % of it is the object\n", options.png, 100.0 * light->picture_covered);
     }
@@ -112,13 +115,13 @@ Expected<void> show_spinning(const ShowOptions& options, const transport::Addres
         fmt::print("{{{}, \"two_way\": {}, {}, {}}}\n", head_json(options, display, frame_pixels(display), voxels),
                    address.kind != transport::AddressKind::File, stream_json(*delivery),
                    light_json(to, delivery->light));
-        return {};
+    } else {
+        fmt::print("{}: {} of {} samples were inside at the end\n", display.name.view(), thousands(voxels),
+                   thousands(frame_pixels(display)));
+        print_stream(*delivery);
+        print_light(options, delivery->light);
     }
-    fmt::print("{}: {} of {} samples were inside at the end\n", display.name.view(), thousands(voxels),
-               thousands(frame_pixels(display)));
-    print_stream(*delivery);
-    print_light(options, delivery->light);
-    return {};
+    return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();
 }
 
 }  // namespace

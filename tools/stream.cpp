@@ -49,7 +49,6 @@ public:
             ++number_;
         }
     }
-    void stop() { ended_ = true; }
 
 private:
     void make(const FrameMoment& moment) {
@@ -69,25 +68,25 @@ private:
 Expected<StreamDelivery> stream_in_process(const DeliveryOptions& options, const DisplayDescription& display,
                                            Feeder& feeder, io::AtomicFile* png) {
     auto [host_end, device_end] = transport::make_loopback();
-    Expected<sim::Simulator> simulator = sim::Simulator::make(display, device_end.get());
-    if (!simulator) return tl::unexpected(simulator.error());
+    Expected<LocalDisplay> local = make_local_display(options, display, device_end.get());
+    if (!local) return tl::unexpected(local.error());
+    sim::Simulator& simulator = local->simulator;
     host::Session session(host_end.get(), display, session_options(true, display, feeder.first()));
     host::FrameStream stream(session, display);
     stop_on_signals();
     std::uint64_t now_ns = 0;
-    while (!feeder.done() || !stream.idle()) {
-        if (asked_to_stop()) feeder.stop();
+    while (!asked_to_stop() && (!feeder.done() || !stream.idle())) {
         feeder.feed(stream);
         const Status host_moved = stream.poll(now_ns);
-        const Status device_moved = simulator->poll(now_ns);
+        const Status device_moved = simulator.poll(now_ns);
         if (session.state() == host::SessionState::Failed) return tl::unexpected(session.error());
         if (host_moved == Status::WouldBlock && device_moved == Status::WouldBlock) {
-            now_ns = std::min(simulator->next_boundary_ns(), now_ns + kSimulatedStep_ns);
+            now_ns = std::min(simulator.next_boundary_ns(), now_ns + kSimulatedStep_ns);
         }
     }
-    StreamDelivery delivery{session.statistics(), stream.statistics(), true, std::nullopt};
-    const std::size_t lit = sim::count_lit(display, simulator->device().shown().page);
-    Expected<std::optional<LightSeen>> seen = look_at(*simulator, now_ns, lit, options, png);
+    StreamDelivery delivery{session.statistics(), stream.statistics(), true, std::nullopt, std::nullopt};
+    const std::size_t lit = sim::count_lit(display, simulator.device().shown().page);
+    Expected<std::optional<LightSeen>> seen = look_at(simulator, now_ns, lit, options, png);
     if (!seen) return tl::unexpected(seen.error());
     delivery.light = std::move(*seen);
     return delivery;
@@ -100,21 +99,24 @@ Expected<StreamDelivery> stream_over(Link link, const DeliveryOptions& options, 
     host::Session session(link, display, session_options(two_way, display, feeder.first()));
     host::FrameStream stream(session, display);
     stop_on_signals();
-    const auto failed = [&] { return fail(fmt::format("{}: {}", options.to, session.error().message)); };
-    while (!feeder.done() || !stream.idle()) {
-        if (asked_to_stop()) feeder.stop();
+    StreamDelivery delivery;
+    const auto poll = [&](std::int64_t patience_ns) {
+        const Status moved = stream.poll(now_ns());
+        const bool failed = session.state() == host::SessionState::Failed;
+        if (failed) delivery.broken = Error{fmt::format("{}: {}", options.to, session.error().message)};
+        if (moved == Status::WouldBlock) (void)link.wait(session.events(), patience_ns);
+        return !failed;
+    };
+    bool alive = true;
+    // After a signal nothing more is sent; what the display has, it shows without us.
+    while (alive && !asked_to_stop() && (!feeder.done() || !stream.idle())) {
         feeder.feed(stream);
-        const Status moved = stream.poll(now_ns());
-        if (session.state() == host::SessionState::Failed) return failed();
-        // Short: slots come round while nothing arrives.
-        if (moved == Status::WouldBlock) (void)link.wait(session.events(), 1'000'000);
+        alive = poll(1'000'000);  // Short: slots come round while nothing arrives.
     }
-    const StreamDelivery delivery{session.statistics(), stream.statistics(), false, std::nullopt};
-    while (options.hold && !asked_to_stop()) {
-        const Status moved = stream.poll(now_ns());
-        if (session.state() == host::SessionState::Failed) return failed();
-        if (moved == Status::WouldBlock) (void)link.wait(session.events(), 100'000'000);
-    }
+    delivery.session = session.statistics();
+    delivery.stream = stream.statistics();
+    while (alive && options.hold && !asked_to_stop()) alive = poll(100'000'000);
+    if (!alive && session.statistics().hellos == 0) return tl::unexpected(*delivery.broken);
     return delivery;
 }
 
@@ -135,7 +137,7 @@ Expected<StreamDelivery> deliver_stream(const DeliveryOptions& options, const tr
             Expected<UniqueLink> link = transport::open_file_writer(address.path);
             if (!link) return tl::unexpected(link.error());
             Expected<StreamDelivery> delivery = stream_over(link->get(), options, display, feeder);
-            if (!delivery) return delivery;
+            if (!delivery || delivery->broken) return delivery;
             if (const auto kept = transport::commit_file(link->get()); !kept) return tl::unexpected(kept.error());
             return delivery;
         }

@@ -29,11 +29,12 @@ struct StreamDelivery {
     host::StreamStatistics stream;
     bool simulated = false;          ///< On loopback: time stood still while frames were made.
     std::optional<LightSeen> light;  ///< Of the last frame, on loopback.
+    std::optional<Error> broken;     ///< Why it ended before its time; the figures are those until then.
 };
 
 /// Sends frames of `source` for `seconds` (0: until there are no more), one for each cycle of the display as far as
 /// they can be made and sent, and waits until the last one is shown. A signal ends it in good order. `png`, on
-/// loopback: where a picture of the last frame goes; null for none.
+/// loopback: where a picture of the last frame goes; null for none. An Error: nothing was sent.
 Expected<StreamDelivery> deliver_stream(const DeliveryOptions& options, const transport::Address& address,
                                         const DisplayDescription& display, const FrameSource& source, double seconds,
                                         io::AtomicFile* png);

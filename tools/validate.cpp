@@ -24,6 +24,7 @@ struct Verdict {
     std::string file;
     std::string display;  ///< What it is, in words; empty if there are problems.
     std::vector<Problem> problems;
+    bool complete = false;  ///< Whether it was looked at what contradicts itself, which is last.
 };
 
 std::string in_words(const DisplayFile& display) {
@@ -33,13 +34,15 @@ std::string in_words(const DisplayFile& display) {
 }
 
 Verdict judge(const std::string& file) {
-    Verdict verdict{file, {}, {}};
+    Verdict verdict{file, {}, {}, false};
     const auto source = find_display(file);
     if (!source) {
         verdict.problems.push_back({0, source.error().message, source.error().message});
         return verdict;
     }
-    for (DisplayMistake& mistake : find_mistakes(source->text)) {
+    auto mistakes = find_mistakes(source->text);
+    verdict.complete = mistakes.empty() || mistakes.front().contradiction;
+    for (DisplayMistake& mistake : mistakes) {
         std::string text = fmt::format("{}: line {}: {}", file, mistake.line, mistake.message);
         verdict.problems.push_back({mistake.line, std::move(mistake.message), std::move(text)});
     }
@@ -57,9 +60,10 @@ void print_json(const std::vector<Verdict>& verdicts) {
                 fmt::format("{}{{\"line\": {}, \"message\": {}}}", mistakes.empty() ? "" : ", ",
                             problem.line == 0 ? "null" : fmt::format("{}", problem.line), json_string(problem.message));
         }
-        all += fmt::format("{}\n  {{\"file\": {}, \"valid\": {}, \"display\": {}, \"mistakes\": [{}]}}",
-                           all.empty() ? "" : ",", json_string(verdict.file), verdict.problems.empty(),
-                           json_string(verdict.display), mistakes);
+        all +=
+            fmt::format("{}\n  {{\"file\": {}, \"valid\": {}, \"display\": {}, \"complete\": {}, \"mistakes\": [{}]}}",
+                        all.empty() ? "" : ",", json_string(verdict.file), verdict.problems.empty(),
+                        json_string(verdict.display), verdict.complete, mistakes);
     }
     fmt::print("[{}\n]\n", all);
 }
@@ -75,6 +79,11 @@ Expected<void> validate(const ValidateOptions& options) {
     for (const Verdict& verdict : verdicts) {
         if (verdict.problems.empty() && !options.json) fmt::print("{}: fine: {}\n", verdict.file, verdict.display);
         for (const Problem& problem : verdict.problems) problems.push_back(problem.text);
+        const bool was_read = !verdict.problems.empty() && verdict.problems.front().line > 0;
+        if (!was_read || verdict.complete) continue;
+        problems.push_back(verdict.file +
+                           ": further mistakes may show once these are mended: what contradicts itself is"
+                           " looked for last");
     }
     if (problems.empty()) return {};
     // The last one is the command's Error, which the program prints in the same way.

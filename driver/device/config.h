@@ -24,6 +24,11 @@ constexpr std::uint64_t rounded(double value) {
     return static_cast<std::uint64_t>(value + 0.5);
 }
 
+/// 0 stays unknown, and nothing else becomes it.
+constexpr std::uint64_t known_ua(double ma) {
+    return ma > 0.0 ? std::max<std::uint64_t>(rounded(ma * 1e3), 1) : 0;
+}
+
 }  // namespace detail
 
 constexpr RotationConfig rotation_config(const DisplayDescription& display) {
@@ -68,8 +73,8 @@ constexpr CurrentConfig current_config(const DisplayDescription& display) {
     config.format = display.format;
     config.bit_planes = shown_bit_planes(display);
     config.row_groups = display.scan.row_groups;
-    config.led_ua = static_cast<std::uint32_t>(detail::rounded(display.power.led_ma * 1e3));
-    config.limit_ua = config.led_ua == 0 ? 0 : detail::rounded(display.power.limit_ma * 1e3);
+    config.led_ua = static_cast<std::uint32_t>(detail::known_ua(display.power.led_ma));
+    config.limit_ua = config.led_ua == 0 ? 0 : detail::known_ua(display.power.limit_ma);
     config.slices = at_once ? display.slices : 1;
     config.panel_count = display.panel_count;
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {

@@ -18,6 +18,10 @@ namespace {
 
 using Violations = std::vector<Violation>;
 
+bool has_colors(PixelFormat format) {
+    return bits_per_pixel(format) > bits_per_channel(format);
+}
+
 void check_sizes(const DisplayDescription& display, Violations& violations) {
     const std::size_t bytes = frame_bytes(display);
     if (bytes > kMaxFrameBytes) {
@@ -66,7 +70,14 @@ void check_half_sweep(const DisplayDescription& display, Violations& violations)
 
 void check_motion(const DisplayDescription& display, Violations& violations) {
     const Motion& motion = display.motion;
-    if (motion.profile != MotionProfile::Table) return;
+    const bool has_table = motion.profile == MotionProfile::Table;
+    if (has_table ? motion.table_size < 2 : motion.table_size != 0) {
+        const std::string_view allowed = has_table ? "2 to 64" : "none, or profile = \"table\"";
+        violations.push_back(
+            {"motion.table", {}, fmt::format("found {} heights; allowed: {}", motion.table_size, allowed), {}});
+        return;
+    }
+    if (!has_table) return;
     const auto refuse = [&](std::size_t i, std::string message) {
         violations.push_back({"motion.table", {}, std::move(message), i});
     };
@@ -148,7 +159,7 @@ void check_wiring(const DisplayDescription& display, Violations& violations) {
                                   p,
                                   fmt::format("found {} on connector {}, where panel {} is already;"
                                               " give each panel its own place",
-                                              panel.chain_position, panel.connector, q + 1),
+                                              panel.chain_position, panel.connector, q),
                                   {}});
             break;
         }
@@ -174,7 +185,7 @@ void check_faces(const DisplayDescription& display, Violations& violations) {
                                   p,
                                   fmt::format("its face passes through or covers that of panel {}; move one of"
                                               " them by shift_mm, offset_mm, lift_mm or angle_deg",
-                                              q + 1),
+                                              q),
                                   {}});
             break;
         }
@@ -184,32 +195,101 @@ void check_faces(const DisplayDescription& display, Violations& violations) {
 void check_sync(const DisplayDescription& display, Violations& violations) {
     const Sync& sync = display.sync;
     const double speed = display.cycles_per_second;
+    const auto refuse = [&](std::string_view key, std::string message) {
+        violations.push_back({key, {}, std::move(message), {}});
+    };
+    if (sync.index == IndexSource::None) {
+        const auto check_unused = [&](std::string_view key, double value, double unused) {
+            if (value != unused)
+                refuse(key, fmt::format("found {}, but index = \"none\"; allowed then: {}", value, unused));
+        };
+        check_unused("sync.index_pulses", sync.index_pulses, 1.0);
+        check_unused("sync.index_phase", sync.index_phase, 0.0);
+        check_unused("sync.slowest_cycles_per_second", sync.slowest_cycles_per_second, 0.0);
+        check_unused("sync.fastest_cycles_per_second", sync.fastest_cycles_per_second, 0.0);
+        return;
+    }
     if (sync.slowest_cycles_per_second != 0.0 && !(sync.slowest_cycles_per_second < speed)) {
-        violations.push_back({"sync.slowest_cycles_per_second",
-                              {},
-                              fmt::format("found {}; allowed: less than cycles_per_second, which is {}",
-                                          sync.slowest_cycles_per_second, speed),
-                              {}});
+        refuse("sync.slowest_cycles_per_second",
+               fmt::format("found {}; allowed: less than cycles_per_second, which is {}",
+                           sync.slowest_cycles_per_second, speed));
     }
     if (sync.fastest_cycles_per_second != 0.0 && !(sync.fastest_cycles_per_second > speed)) {
-        violations.push_back({"sync.fastest_cycles_per_second",
-                              {},
-                              fmt::format("found {}; allowed: more than cycles_per_second, which is {}",
-                                          sync.fastest_cycles_per_second, speed),
-                              {}});
+        refuse("sync.fastest_cycles_per_second",
+               fmt::format("found {}; allowed: more than cycles_per_second, which is {}",
+                           sync.fastest_cycles_per_second, speed));
     }
-    if (sync.index != IndexSource::None) return;
-    if (sync.index_pulses != 1) {
-        violations.push_back({"sync.index_pulses",
-                              {},
-                              fmt::format("found {}, but index = \"none\"; allowed then: 1", sync.index_pulses),
-                              {}});
+    // What driver/device/rotation.h can count.
+    const double cycles_a_turn = speed / turns_per_second(display);
+    const double slowest = sync.slowest_cycles_per_second != 0.0 ? sync.slowest_cycles_per_second : speed / 2.0;
+    const double fastest = sync.fastest_cycles_per_second != 0.0 ? sync.fastest_cycles_per_second : speed * 1.25;
+    constexpr double kLongestTurn_s = 2000.0;
+    constexpr double kShortestPulse_ns = 16.0;
+    if (cycles_a_turn / slowest > kLongestTurn_s) {
+        refuse("cycles_per_second",
+               fmt::format("found {}; at its slowest a turn would take {:.4g} s; allowed with an index: {} s", speed,
+                           cycles_a_turn / slowest, kLongestTurn_s));
     }
-    if (sync.index_phase != 0.0) {
-        violations.push_back({"sync.index_phase",
-                              {},
-                              fmt::format("found {}, but index = \"none\"; allowed then: 0", sync.index_phase),
-                              {}});
+    if (const double pulse_ns = 1e9 * cycles_a_turn / fastest / sync.index_pulses; pulse_ns < kShortestPulse_ns) {
+        refuse("sync.index_pulses",
+               fmt::format("found {}; at its fastest they would come every {:.3g} ns; allowed: {} ns or more",
+                           sync.index_pulses, pulse_ns, kShortestPulse_ns));
+    }
+}
+
+/// Groups of rows are equal, on every panel.
+void check_row_groups(const DisplayDescription& display, Violations& violations) {
+    const bool two_halves = display.scan.driver == DriverChip::Hub75;
+    for (std::size_t p = 0; p < display.panel_count; ++p) {
+        const std::uint32_t rows = display.panels[p].rows;
+        if (two_halves && rows % 2 != 0) {
+            violations.push_back(
+                {"rows",
+                 p,
+                 fmt::format("found {}; allowed with driver \"hub75\", which lights two halves: even", rows),
+                 {}});
+            return;
+        }
+        const std::uint32_t lit = two_halves ? rows / 2 : rows;
+        if (lit % display.scan.row_groups == 0) continue;
+        violations.push_back(
+            {"scan.row_groups",
+             {},
+             fmt::format("found {}; allowed: what divides {}, for panel {} has {} rows{}", display.scan.row_groups, lit,
+                         p, rows, two_halves ? ", which hub75 lights in two halves" : ""),
+             {}});
+        return;
+    }
+}
+
+void check_strings(const DisplayDescription& display, Violations& violations) {
+    const Scan& scan = display.scan;
+    const std::string_view driver = name_of(kDriverNames, scan.driver);
+    const auto refuse = [&](std::string_view key, std::string message) {
+        violations.push_back({key, {}, std::move(message), {}});
+    };
+    if (!has_strings(display)) {
+        if (scan.strings > 1) {
+            refuse("scan.strings", fmt::format("found {}; allowed with driver \"{}\": 1", scan.strings, driver));
+        }
+        if (scan.serpentine) {
+            refuse("scan.serpentine", fmt::format("found true; allowed with driver \"{}\": false", driver));
+        }
+        return;
+    }
+    if (!has_colors(display.format)) {
+        refuse("format",
+               fmt::format("found \"{}\"; allowed with driver \"{}\", whose LEDs have three colours: rgb111 to"
+                           " rgb888",
+                           to_string(display.format), driver));
+    }
+    const std::size_t leds = frame_pixels(display) / (keeps_light(display) ? 1 : display.slices);
+    if (leds % scan.strings != 0) {
+        refuse("scan.strings", fmt::format("found {}; allowed: what divides the {} LEDs, for strings are equally long",
+                                           scan.strings, leds));
+    }
+    if (scan.row_groups > 1) {
+        refuse("scan.row_groups", fmt::format("found {}; allowed with driver \"{}\": 1", scan.row_groups, driver));
     }
 }
 
@@ -224,23 +304,11 @@ void check_scan(const DisplayDescription& display, Violations& violations) {
         refuse("scan.bit_planes", fmt::format("found {}; allowed: at most {}, for {} has no more bits a channel",
                                               scan.bit_planes, bits, to_string(display.format)));
     }
-    const bool two_halves = scan.driver == DriverChip::Hub75;
-    for (std::size_t p = 0; p < display.panel_count; ++p) {
-        const std::uint32_t rows = two_halves ? display.panels[p].rows / 2u : display.panels[p].rows;
-        if (scan.row_groups <= std::max(rows, 1u)) continue;
-        refuse("scan.row_groups", fmt::format("found {}; allowed: at most {}, for panel {} has {} rows{}",
-                                              scan.row_groups, std::max(rows, 1u), p + 1, display.panels[p].rows,
-                                              two_halves ? ", which hub75 lights in two halves" : ""));
-        break;
-    }
-    if (scan.strings > 1 && !keeps_light(display)) {
-        refuse("scan.strings", fmt::format("found {}; allowed with driver \"{}\": 1", scan.strings, driver));
-    }
-    if (scan.serpentine && !keeps_light(display)) {
-        refuse("scan.serpentine", fmt::format("found true; allowed with driver \"{}\": false", driver));
-    }
-    if (scan.row_groups > 1 && keeps_light(display)) {
-        refuse("scan.row_groups", fmt::format("found {}; allowed with driver \"{}\": 1", scan.row_groups, driver));
+    const std::string_view order(scan.color_order.data(), scan.color_order.size());
+    if (order != "rgb" && !has_colors(display.format)) {
+        refuse("scan.color_order",
+               fmt::format("found \"{}\"; allowed with format \"{}\", which has one channel: \"rgb\"", order,
+                           to_string(display.format)));
     }
     if (scan.layers_first && scan.driver != DriverChip::ShiftRegister595) {
         refuse("scan.register_order",
@@ -254,6 +322,22 @@ void check_scan(const DisplayDescription& display, Violations& violations) {
                                                     " one bit",
                                                     scan.planes_per_frame, to_string(display.format)));
     }
+    const bool edges_known = scan.min_on_ns > 0 && scan.rise_ns > 0 && scan.fall_ns > 0;
+    if (edges_known && scan.min_on_ns < scan.rise_ns + scan.fall_ns) {
+        refuse("scan.min_on_ns",
+               fmt::format("found {}; allowed: at least {}, which rise_ns and fall_ns make, or an LED is"
+                           " never fully lit",
+                           scan.min_on_ns, scan.rise_ns + scan.fall_ns));
+    }
+}
+
+void check_power(const DisplayDescription& display, Violations& violations) {
+    if (display.power.limit_ma == 0.0 || display.power.led_ma > 0.0) return;
+    violations.push_back(
+        {"power.limit_ma",
+         {},
+         fmt::format("found {}, but it needs led_ma, or no current can be reckoned", display.power.limit_ma),
+         {}});
 }
 
 /// The most slices of a cycle for which `display` can be scanned; 0: not even one.
@@ -268,8 +352,8 @@ std::uint32_t fitting_slices(DisplayDescription display) {
     return fits;
 }
 
-std::string microseconds(double ns) {
-    return fmt::format("{:.4g} µs", ns / 1000.0);
+std::string time_text(double ns) {
+    return ns < 999'950.0 ? fmt::format("{:.4g} µs", ns / 1e3) : fmt::format("{:.4g} ms", ns / 1e6);
 }
 
 void check_rate(const DisplayDescription& display, Violations& violations) {
@@ -290,29 +374,29 @@ void check_rate(const DisplayDescription& display, Violations& violations) {
     const double step = std::pow(10.0, std::floor(std::log10(cycles)) - 2.0);
     add(fmt::format("{:.3g} cycles a second", std::floor(cycles / step) * step));
     const std::string with_planes =
-        whole_frame ? "" : fmt::format(" for {} bit plane{}", planes, planes == 1 ? "" : "s");
+        has_strings(display) ? "" : fmt::format(" for {} bit plane{}", planes, planes == 1 ? "" : "s");
     violations.push_back({"cycles_per_second",
                           {},
                           fmt::format("found {}, at which a {} has {}, but its scan needs {}{}; what fits: {}",
-                                      display.cycles_per_second, whole_frame ? "frame" : "slice",
-                                      microseconds(given_ns), microseconds(needed_ns), with_planes, fits),
+                                      display.cycles_per_second, whole_frame ? "frame" : "slice", time_text(given_ns),
+                                      time_text(needed_ns), with_planes, fits),
                           {}});
 }
 
 /// The shortest light and the number of bit planes say for how long an LED is lit; a duty below that is none.
 void check_duty(const DisplayDescription& display, Violations& violations) {
-    if (keeps_light(display)) return;
+    if (has_strings(display)) return;
     const double lit_ns = display.scan.min_on_ns * ((1u << shown_bit_planes(display)) - 1.0);
     const bool own_layer = display.kind == DisplayKind::StackedPlanes;  // An LED is in one slice of a cycle only.
     const double of_ns = slice_time_ns(display) * (own_layer ? display.slices : 1.0);
     if (lit_ns <= display.power.max_duty * of_ns) return;
-    violations.push_back(
-        {"power.max_duty",
-         {},
-         fmt::format("found {}, but scan.min_on_ns lights an LED for {} of {}, a part of {:.3g};"
-                     " allowed: at least that",
-                     display.power.max_duty, microseconds(lit_ns), microseconds(of_ns), lit_ns / of_ns),
-         {}});
+    if (lit_ns > of_ns) return;  // No duty is enough, and check_rate() has said so.
+    violations.push_back({"power.max_duty",
+                          {},
+                          fmt::format("found {}, but scan.min_on_ns lights an LED for {} of {}, a part of {:.3g};"
+                                      " allowed: at least that",
+                                      display.power.max_duty, time_text(lit_ns), time_text(of_ns), lit_ns / of_ns),
+                          {}});
 }
 
 }  // namespace
@@ -328,11 +412,15 @@ std::vector<Violation> find_contradictions(const DisplayDescription& display, bo
     check_faces(display, violations);
     check_sync(display, violations);
     check_scan(display, violations);
-    // More planes than bits have no time.
-    if (shown_bit_planes(display) <= bits_per_channel(display.format)) {
-        check_rate(display, violations);
-        check_duty(display, violations);
-    }
+    check_strings(display, violations);
+    if (!has_strings(display)) check_row_groups(display, violations);
+    check_power(display, violations);
+    // There is time for the planes that can be shown.
+    DisplayDescription shown = display;
+    shown.scan.bit_planes =
+        static_cast<std::uint8_t>(std::min(shown_bit_planes(display), bits_per_channel(display.format)));
+    check_rate(shown, violations);
+    check_duty(shown, violations);
     return violations;
 }
 

@@ -21,7 +21,7 @@ bool is_digit(char c) {
 std::string quoted(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
-        if (c == '"' || c == '\\') {
+        if (c == '"' || c == '\\' || c == '?') {  // "??/" and its like mean something else to older compilers
             out += '\\';
             out += c;
         } else if (c >= ' ' && c <= '~') {

@@ -237,7 +237,8 @@ struct Scan {
 struct Power {
     double led_ma = 0.0;    ///< Of one channel of one LED while it is lit.
     double max_duty = 1.0;  ///< The part of the time for which an LED may be lit, above 0 to 1.
-    double limit_ma = 0.0;  ///< What the supply gives: the device dims a slice that would draw more on average.
+    double limit_ma = 0.0;  ///< What the supply gives, with led_ma known: the device dims a slice that would draw
+                            ///< more on average.
 };
 
 /// A place in millimetres.
@@ -284,10 +285,15 @@ constexpr double turns_per_second(const DisplayDescription& display) {
         default: return display.cycles_per_second;
     }
 }
-/// Whether its LEDs keep their colour until the next frame, so that they are sent a frame at once and a slice has no
-/// time of its own.
-constexpr bool keeps_light(const DisplayDescription& display) {
+/// Whether its LEDs are addressable strings.
+constexpr bool has_strings(const DisplayDescription& display) {
     return display.scan.driver == DriverChip::Ws2812 || display.scan.driver == DriverChip::Apa102;
+}
+/// Whether its LEDs keep their colour until the next frame, so that they are sent a frame at once and a slice has no
+/// time of its own: strings that do not move.
+constexpr bool keeps_light(const DisplayDescription& display) {
+    const bool moves = display.kind != DisplayKind::StackedPlanes && display.kind != DisplayKind::FreePoints;
+    return has_strings(display) && !moves;
 }
 /// Bits a channel that are shown.
 constexpr std::uint32_t shown_bit_planes(const DisplayDescription& display) {

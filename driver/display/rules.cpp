@@ -1,7 +1,6 @@
 #include "driver/display/rules.h"
 
 #include <algorithm>
-
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,22 +11,23 @@
 namespace xorvox::display {
 namespace {
 
-/// Looks at each number alone.
+/// Looks at each value alone.
 class Checker {
 public:
     explicit Checker(const DisplayDescription& display) : display_(display) {}
 
     std::vector<Violation> check_all() {
-        check_names();
+        named("kind", display_.kind, kKindNames);
         if (!violations_.empty()) return std::move(violations_);
+        check_names();
         check_display();
         check_motion();
         check_panels();
         check_sync();
         check_scan();
-        range("power.led_ma", display_.power.led_ma, kMilliamperes);
+        known("power.led_ma", display_.power.led_ma, kLedMilliamperes);
         range("power.max_duty", display_.power.max_duty, kDuty);
-        range("power.limit_ma", display_.power.limit_ma, kMilliamperes);
+        known("power.limit_ma", display_.power.limit_ma, kLimitMilliamperes);
         return std::move(violations_);
     }
 
@@ -40,6 +40,12 @@ private:
 
     void range(std::string_view key, double value, const Range& range, std::optional<std::size_t> item = {}) {
         if (auto message = check(value, range)) refuse(key, std::move(*message), item);
+    }
+
+    /// 0 says that nobody knows it, or that there is none.
+    void known(std::string_view key, double value, const Range& allowed) {
+        if (value == 0.0) return;
+        if (const auto message = check(value, allowed)) refuse(key, *message + ", or 0");
     }
 
     /// `value` must be in `range` on displays that it `applies` to, and what it is by default on others.
@@ -64,7 +70,6 @@ private:
     }
 
     void check_names() {
-        named("kind", display_.kind, kKindNames);
         if (bits_per_pixel(display_.format) == 0) {
             refuse("format",
                    fmt::format("found number {}; allowed: 1 (mono1) to 8 (mono4)", static_cast<int>(display_.format)));
@@ -120,20 +125,15 @@ private:
         }
         flag_if(swept, "motion.both_ways", motion.both_ways);
         range_if(swept, "motion.dead_zone", motion.dead_zone, 0, kDeadZone);
-        if (motion.profile == MotionProfile::Table) {
-            if (motion.table_size < 2 || motion.table_size > kMaxMotionTable) {
-                refuse("motion.table",
-                       fmt::format("found {} heights; allowed: 2 to {}", motion.table_size, kMaxMotionTable));
-            }
-        } else if (motion.table_size != 0) {
+        if (motion.table_size > kMaxMotionTable) {
             refuse("motion.table",
-                   fmt::format("found {} heights; allowed: none, or profile = \"table\"", motion.table_size));
+                   fmt::format("found {} heights; allowed: 2 to {}", motion.table_size, kMaxMotionTable));
         }
     }
 
     void check_panels() {
         const bool rotor = is(DisplayKind::RotatingPanel);
-        for (std::size_t p = 0; p < display_.panel_count; ++p) {
+        for (std::size_t p = 0; p < std::min<std::size_t>(display_.panel_count, kMaxPanels); ++p) {
             const Panel& panel = display_.panels[p];
             panel_ = p;
             range("columns", panel.columns, kPixels);
@@ -160,11 +160,8 @@ private:
         if (!(sync.index_phase >= 0.0 && sync.index_phase < 1.0)) {
             refuse("sync.index_phase", fmt::format("found {}; allowed: a number from 0 to below 1", sync.index_phase));
         }
-        const auto bound = [this](std::string_view key, double value) {
-            if (value != 0.0) range(key, value, kCyclesPerSecond);
-        };
-        bound("sync.slowest_cycles_per_second", sync.slowest_cycles_per_second);
-        bound("sync.fastest_cycles_per_second", sync.fastest_cycles_per_second);
+        known("sync.slowest_cycles_per_second", sync.slowest_cycles_per_second, kCyclesPerSecond);
+        known("sync.fastest_cycles_per_second", sync.fastest_cycles_per_second, kCyclesPerSecond);
     }
 
     void check_scan() {
@@ -195,7 +192,7 @@ private:
 }  // namespace
 
 std::string in_words(const Violation& violation, std::string_view joint) {
-    const std::string panel = violation.panel ? fmt::format("panel {}{}", *violation.panel + 1, joint) : "";
+    const std::string panel = violation.panel ? fmt::format("panel {}{}", *violation.panel, joint) : "";
     const std::string_view colon = violation.key.empty() ? "" : ": ";
     return fmt::format("{}{}{}{}", panel, violation.key, colon, violation.message);
 }
@@ -217,9 +214,8 @@ bool gives_wiring(const DisplayDescription& display) {
     return false;
 }
 
-std::vector<Violation> find_violations(const DisplayDescription& display, bool wiring_given) {
-    auto violations = Checker(display).check_all();
-    return violations.empty() ? find_contradictions(display, wiring_given) : std::move(violations);
+std::vector<Violation> find_wrong_values(const DisplayDescription& display) {
+    return Checker(display).check_all();
 }
 
 }  // namespace xorvox::display
@@ -227,7 +223,8 @@ std::vector<Violation> find_violations(const DisplayDescription& display, bool w
 namespace xorvox {
 
 Expected<void> validate_display(const DisplayDescription& display) {
-    const auto violations = display::find_violations(display, display::gives_wiring(display));
+    auto violations = display::find_wrong_values(display);
+    if (violations.empty()) violations = display::find_contradictions(display, display::gives_wiring(display));
     if (violations.empty()) return {};
     return fail(fmt::format("display \"{}\": {}", display.name.view(), display::in_words(violations.front(), ", ")));
 }

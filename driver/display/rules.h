@@ -37,7 +37,9 @@ inline constexpr Range kRowGroups{1, 4096, true};
 inline constexpr Range kBitPlanes{0, 8, true};
 inline constexpr Range kStrings{1, 255, true};
 inline constexpr Range kPlanesPerFrame{1, 24, true};
-inline constexpr Range kMilliamperes{0, 1e9};
+/// Currents that are known: the device counts whole microamperes, 2^24 of an LED at most.
+inline constexpr Range kLedMilliamperes{0.001, 1e4};
+inline constexpr Range kLimitMilliamperes{0.001, 1e9};
 inline constexpr Range kDuty{1e-6, 1};
 /// Steps of a measured table of motion, as parts of the stroke: below, rounding would swallow slices.
 inline constexpr double kLeastTableStep = 1e-6;
@@ -51,7 +53,7 @@ struct Violation {
     std::optional<std::size_t> item;   ///< Of a list.
 };
 
-/// "panel 2: rows: found 0; allowed: …", with `joint` after the panel.
+/// "panel 1: rows: found 0; allowed: …", with `joint` after the panel.
 std::string in_words(const Violation& violation, std::string_view joint);
 
 /// "found 0; allowed: a whole number from 1 to 4096" if `value` is outside `range` or not a number.
@@ -60,11 +62,12 @@ std::optional<std::string> check(double value, const Range& range);
 /// Whether the panels' connectors and chain positions mean anything: the driver has chains, or one of them is not 0.
 bool gives_wiring(const DisplayDescription& display);
 
-/// The rules that `display` breaks: those of single numbers, or if none of these is broken, the contradictions between
-/// numbers. `wiring_given`: no two panels may have the same connector and chain position.
-std::vector<Violation> find_violations(const DisplayDescription& display, bool wiring_given);
+/// The values of `display` that are wrong, whatever the others are but its kind and the number of panels. Of a kind
+/// that is none, that alone. Looks at no more panels than there can be.
+std::vector<Violation> find_wrong_values(const DisplayDescription& display);
 
-/// The contradictions in a description whose single numbers are in order.
+/// The contradictions in a description that has no wrong values. `wiring_given`: no two panels may have the same
+/// connector and chain position.
 std::vector<Violation> find_contradictions(const DisplayDescription& display, bool wiring_given);
 
 }  // namespace xorvox::display

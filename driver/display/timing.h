@@ -23,7 +23,10 @@ constexpr double slice_time_ns(const DisplayDescription& display) {
 /// Pixels that one chain, or one string, of `display` is fed with for one slice (keeps_light(): for one frame), one
 /// after the other, and of those how many for one group of rows.
 constexpr double chain_pixels(const DisplayDescription& display) {
-    if (keeps_light(display)) return static_cast<double>(frame_pixels(display)) / display.scan.strings;
+    if (has_strings(display)) {
+        const std::size_t pixels = frame_pixels(display) / (keeps_light(display) ? 1 : display.slices);
+        return static_cast<double>(pixels) / display.scan.strings;
+    }
     double longest = 0.0;
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         double pixels = 0.0;

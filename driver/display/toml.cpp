@@ -16,6 +16,7 @@ namespace {
 using display::kAllKinds;
 using display::Key;
 using display::Kinds;
+using display::Mistakes;
 using display::TomlNode;
 using display::TomlTable;
 
@@ -90,30 +91,23 @@ public:
     /// Mistakes by line; none: the display is whole.
     std::vector<DisplayMistake> read() {
         top_.refuse_unknown(kDisplayKeys);
-        if (read_kind()) read_display();
-        if (mistakes_.empty()) check_rules();
-        std::ranges::stable_sort(mistakes_, [](const DisplayMistake& a, const DisplayMistake& b) {
+        if (top_.find("kind") == nullptr) top_.note_missing("kind");
+        top_.choice("kind", display::kKindNames, display_.kind);
+        knows_kind_ = !mistakes_.is_spoilt(root_, "kind");
+        read_display();
+        if (knows_kind_) check_numbers();
+        if (mistakes_.list.empty()) check_contradictions();
+        std::ranges::stable_sort(mistakes_.list, [](const DisplayMistake& a, const DisplayMistake& b) {
             return a.missing != b.missing ? b.missing : a.line < b.line;
         });
-        return std::move(mistakes_);
+        return std::move(mistakes_.list);
     }
 
     DisplayFile take() { return std::move(display_); }
 
 private:
-    /// False: without it, nobody knows which keys are needed.
-    bool read_kind() {
-        if (top_.find("kind") == nullptr) {
-            top_.note_missing("kind");
-            return false;
-        }
-        const std::size_t before = mistakes_.size();
-        top_.choice("kind", display::kKindNames, display_.kind);
-        return mistakes_.size() == before;
-    }
-
     void read_display() {
-        top_.check_keys(kDisplayKeys, display_.kind);
+        check_keys(top_, kDisplayKeys);
         read_name();
         top_.text("summary", display_.summary);
         top_.choice("format", display::kFormatNames, display_.format);
@@ -134,6 +128,11 @@ private:
         read_assumed();
     }
 
+    /// Without a kind, nobody knows which keys are needed.
+    void check_keys(TomlTable& table, std::span<const Key> keys) {
+        if (knows_kind_) table.check_keys(keys, display_.kind);
+    }
+
     void read_name() {
         std::string name;
         top_.text("name", name);
@@ -148,8 +147,11 @@ private:
     void read_plane_heights() {
         const bool uneven = top_.find("plane_heights_mm") != nullptr;
         const bool even = top_.find("plane_pitch_mm") != nullptr;
-        if (display_.kind == DisplayKind::StackedPlanes && uneven == even) {
-            if (even) return top_.note("plane_heights_mm", "found beside plane_pitch_mm; allowed: one of the two");
+        if (knows_kind_ && display_.kind == DisplayKind::StackedPlanes && uneven == even) {
+            if (even) {
+                mistakes_.spoil(root_, "plane_pitch_mm");
+                return top_.note("plane_heights_mm", "found beside plane_pitch_mm; allowed: one of the two");
+            }
             top_.note_missing("plane_pitch_mm");
         }
         if (!uneven) return;
@@ -175,7 +177,7 @@ private:
         const std::string place = fmt::format("{}.", name);
         TomlTable table(*node, place, mistakes_);
         table.refuse_unknown(keys);
-        table.check_keys(keys, display_.kind);
+        check_keys(table, keys);
         (this->*fields)(table);
     }
 
@@ -251,10 +253,10 @@ private:
 
     void read_panel(const TomlNode& node, std::size_t index) {
         Panel& panel = display_.panels[index];
-        const std::string place = fmt::format("panel {}: ", index + 1);
+        const std::string place = fmt::format("panel {}: ", index);
         TomlTable table(node, place, mistakes_);
         table.refuse_unknown(kPanelKeys);
-        table.check_keys(kPanelKeys, display_.kind);
+        check_keys(table, kPanelKeys);
         table.whole("columns", display::kPixels, panel.columns);
         table.whole("rows", display::kPixels, panel.rows);
         table.number("column_pitch_mm", panel.column_pitch_mm);
@@ -279,13 +281,14 @@ private:
             const TomlNode* value = find_first(display_.assumed[i]);
             const std::size_t line = list->items[i].line;
             if (value == nullptr) {
-                mistakes_.push_back({line, fmt::format("assumed: found {}, which is no key of this file",
-                                                       display::in_quotes(display_.assumed[i]))});
+                mistakes_.list.push_back({line, fmt::format("assumed: found {}, which is no key of this file",
+                                                            display::in_quotes(display_.assumed[i]))});
             } else if (value == root_.find(display_.assumed[i]) && is_table(*value)) {
-                mistakes_.push_back({line, fmt::format("assumed: found {}, which is a table; name its keys, as in"
-                                                       " \"{}.{}\"",
-                                                       display::in_quotes(display_.assumed[i]), display_.assumed[i],
-                                                       display_.assumed[i] == "panel" ? "rows" : "…")});
+                mistakes_.list.push_back(
+                    {line, fmt::format("assumed: found {}, which is a table; name its keys, as in"
+                                       " \"{}.{}\"",
+                                       display::in_quotes(display_.assumed[i]), display_.assumed[i],
+                                       display_.assumed[i] == "panel" ? "rows" : "…")});
             }
         }
     }
@@ -309,10 +312,30 @@ private:
         return nullptr;
     }
 
-    void check_rules() {
+    /// A key that is spoilt already has nothing to be looked at.
+    void check_numbers() {
+        for (const display::Violation& violation : display::find_wrong_values(display_)) {
+            if (!is_spoilt(violation))
+                mistakes_.list.push_back({line_of(violation), display::in_words(violation, ": ")});
+        }
+    }
+
+    bool is_spoilt(const display::Violation& violation) const {
+        const auto is_bad = [&](std::string_view table, std::string_view key, std::size_t item) {
+            if (mistakes_.is_spoilt(root_, table)) return true;
+            const TomlNode* node = root_.find(table);
+            if (node == nullptr || key.empty()) return false;
+            return mistakes_.is_spoilt(node->type == TomlNode::Type::List ? node->items[item] : *node, key);
+        };
+        if (violation.panel) return is_bad("panel", violation.key, *violation.panel);
+        const std::size_t dot = std::min(violation.key.find('.'), violation.key.size());
+        return is_bad(violation.key.substr(0, dot), violation.key.substr(std::min(dot + 1, violation.key.size())), 0);
+    }
+
+    void check_contradictions() {
         const bool wiring_given = wiring_given_ || display::gives_wiring(display_);
-        for (const display::Violation& violation : display::find_violations(display_, wiring_given)) {
-            mistakes_.push_back({line_of(violation), display::in_words(violation, ": ")});
+        for (const display::Violation& violation : display::find_contradictions(display_, wiring_given)) {
+            mistakes_.list.push_back({line_of(violation), display::in_words(violation, ": "), false, true});
         }
     }
 
@@ -330,9 +353,10 @@ private:
     }
 
     const TomlNode& root_;
-    std::vector<DisplayMistake> mistakes_;
+    Mistakes mistakes_;
     TomlTable top_;
     DisplayFile display_;
+    bool knows_kind_ = false;
     bool wiring_given_ = false;
 };
 

@@ -38,6 +38,8 @@ struct DisplayMistake {
     std::size_t line;      ///< From 1.
     std::string message;   ///< Key, what was found and what is allowed; one line, without file and line.
     bool missing = false;  ///< Something that is not there.
+    /// Between values that are in order one by one. These are looked for once there are no other mistakes.
+    bool contradiction = false;
 };
 
 /// Reads and validates a description. `source` names the text in messages ("file.toml"), which give line, key, what was
@@ -45,8 +47,9 @@ struct DisplayMistake {
 /// kind, are errors.
 Expected<DisplayFile> parse_display(std::string_view toml, std::string_view source);
 
-/// Every mistake that one reading finds, by line, what is missing last; none if parse_display() takes `toml`. Whether
-/// the numbers agree with each other is looked at once each of them is in order.
+/// Every mistake that one reading finds, by line, what is missing last; none if parse_display() takes `toml`. Of text
+/// that is no TOML the first one; where it has no kind that is known, no ranges that depend on the kind. Whether values
+/// contradict each other is looked at once each of them is in order: then the mistakes are contradictions.
 std::vector<DisplayMistake> find_mistakes(std::string_view toml);
 
 /// The text of a display file, and what messages call it.

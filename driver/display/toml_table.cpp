@@ -64,7 +64,7 @@ void TomlTable::refuse_unknown(std::span<const Key> keys) {
         std::string known;
         for (const Key& key : keys) known += fmt::format("{}{}", known.empty() ? "" : ", ", key.name);
         misspelt_.push_back(nearest_key(name.substr(0, 64), keys));
-        mistakes_.push_back(
+        mistakes_.list.push_back(
             {table_.items[i].line, fmt::format("{}unknown key {}; the nearest one is \"{}\" of {}", before(),
                                                in_quotes(path(name)), misspelt_.back(), known)});
     }
@@ -87,11 +87,11 @@ void TomlTable::check_keys(std::span<const Key> keys, DisplayKind kind) {
 }
 
 void TomlTable::note_missing(std::string_view key) {
-    if (std::ranges::find(misspelt_, key) != misspelt_.end()) return;
+    if (std::ranges::find(misspelt_, key) != misspelt_.end()) return mistakes_.spoil(table_, key);
     const std::string_view header = key == "panel"    ? "; add a [[panel]] table"
                                     : key == "motion" ? "; add a [motion] table"
                                                       : "";
-    mistakes_.push_back(
+    add(key,
         {table_.line, fmt::format("{}the required key {} is missing{}", before(), in_quotes(path(key)), header), true});
 }
 
@@ -137,9 +137,8 @@ void TomlTable::points(std::string_view key, std::vector<PointMm>& values) {
     for (const TomlNode& item : node->items) {
         if (item.type != TomlNode::Type::List) return wrong(item, key, allowed);
         if (item.items.size() != 3) {
-            mistakes_.push_back({item.line, fmt::format("{}{}: found a place of {} numbers; allowed: {}", place_, key,
-                                                        item.items.size(), allowed)});
-            return;
+            return add(key, {item.line, fmt::format("{}{}: found a place of {} numbers; allowed: {}", place_, key,
+                                                    item.items.size(), allowed)});
         }
         for (const TomlNode& number : item.items) {
             if (!is_number(number)) return wrong(number, key, allowed);
@@ -160,11 +159,16 @@ void TomlTable::texts(std::string_view key, std::vector<std::string>& values) {
 
 void TomlTable::note(std::string_view key, std::string_view message) {
     const TomlNode* node = find(key);
-    mistakes_.push_back({node == nullptr ? table_.line : node->line, fmt::format("{}{}: {}", place_, key, message)});
+    add(key, {node == nullptr ? table_.line : node->line, fmt::format("{}{}: {}", place_, key, message)});
 }
 
 void TomlTable::wrong(const TomlNode& node, std::string_view key, std::string_view allowed) {
-    mistakes_.push_back({node.line, fmt::format("{}{}: found {}; allowed: {}", place_, key, found(node), allowed)});
+    add(key, {node.line, fmt::format("{}{}: found {}; allowed: {}", place_, key, found(node), allowed)});
+}
+
+void TomlTable::add(std::string_view key, DisplayMistake mistake) {
+    mistakes_.list.push_back(std::move(mistake));
+    mistakes_.spoil(table_, key);
 }
 
 std::optional<std::int64_t> TomlTable::whole_in(std::string_view key, const Range& range) {

@@ -2,12 +2,14 @@
 // on.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "driver/display/names.h"
@@ -37,11 +39,26 @@ struct Key {
     Kinds known_to = kAllKinds;  ///< and kinds that may have it.
 };
 
+/// What is wrong with a file so far.
+class Mistakes {
+public:
+    /// `key` of `table` has no value that can be relied on. `key` is borrowed.
+    void spoil(const TomlNode& table, std::string_view key) { spoilt_.emplace_back(&table, key); }
+    bool is_spoilt(const TomlNode& table, std::string_view key) const {
+        return std::ranges::find(spoilt_, std::pair(&table, key)) != spoilt_.end();
+    }
+
+    std::vector<DisplayMistake> list;
+
+private:
+    std::vector<std::pair<const TomlNode*, std::string_view>> spoilt_;
+};
+
 /// A table in hand. A key that is absent, or whose value is wrong, leaves the value as it was.
 class TomlTable {
 public:
-    /// `place` leads to the table in messages: "", "panel 2: ", "motion.". All are borrowed.
-    TomlTable(const TomlNode& table, std::string_view place, std::vector<DisplayMistake>& mistakes)
+    /// `place` leads to the table in messages: "", "panel 1: ", "motion.". All are borrowed.
+    TomlTable(const TomlNode& table, std::string_view place, Mistakes& mistakes)
         : table_(table), place_(place), mistakes_(mistakes) {}
 
     const TomlNode* find(std::string_view key) const { return table_.find(key); }
@@ -78,7 +95,8 @@ public:
         if (const auto at = one_of(key, known)) value = names[*at].value;
     }
 
-    /// Notes a mistake in the value of `key`, or in the whole table if it has no such key.
+    /// Notes a mistake in the value of `key`, or in the whole table if it has no such key. The key counts as spoilt
+    /// then, as it does after every mistake that has one.
     void note(std::string_view key, std::string_view message);
     void wrong(const TomlNode& node, std::string_view key, std::string_view allowed);
 
@@ -86,12 +104,13 @@ private:
     std::optional<std::int64_t> whole_in(std::string_view key, const Range& range);
     std::optional<std::size_t> one_of(std::string_view key, std::span<const std::string_view> names);
     const TomlNode* list(std::string_view key, std::string_view of_what);
+    void add(std::string_view key, DisplayMistake mistake);
     std::string path(std::string_view key) const;
     std::string_view before() const;
 
     const TomlNode& table_;
     std::string_view place_;
-    std::vector<DisplayMistake>& mistakes_;
+    Mistakes& mistakes_;
     std::vector<std::string_view> misspelt_;  ///< Keys that unknown ones are near to.
 };
 

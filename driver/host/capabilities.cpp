@@ -19,6 +19,19 @@ std::string printable(const DisplayName& name) {
     return text;
 }
 
+/// What a device tells of its geometry, where it differs from that of `display`.
+std::string difference(const wire::Hello& hello, const DisplayDescription& display) {
+    std::string text;
+    if (hello.format != display.format) {
+        text = fmt::format("its pixels are {}, these {}, ", to_string(hello.format), to_string(display.format));
+    }
+    if (hello.frame_bytes != frame_bytes(display)) {
+        text += fmt::format("its frames have {} bytes, these {}, ", hello.frame_bytes, frame_bytes(display));
+    }
+    if (text.empty()) text = "its frames are as large as these, so a place, a size or a direction differs, ";
+    return text + fmt::format("digests {:016x} and {:016x}", hello.geometry_digest, geometry_digest(display));
+}
+
 }  // namespace
 
 Expected<void> check_capabilities(const wire::Hello& hello, const DisplayDescription& display) {
@@ -28,12 +41,11 @@ Expected<void> check_capabilities(const wire::Hello& hello, const DisplayDescrip
         return fail(fmt::format("{} speaks version {}.{} of the protocol, this program {}.{}; update the older one",
                                 device, hello.major, hello.minor, wire::kMajor, wire::kMinor));
     }
-    const std::uint64_t digest = geometry_digest(display);
-    if (hello.geometry_digest != digest) {
+    if (hello.geometry_digest != geometry_digest(display)) {
         return fail(
-            fmt::format("{} has the geometry {:016x}, but the frames are made for \"{}\" with the geometry {:016x}; "
-                        "choose the device's own display (--display)",
-                        device, hello.geometry_digest, printable(display.name), digest));
+            fmt::format("{} has another geometry than the display \"{}\", which the frames are made for: {}; give "
+                        "both ends the same display file (of show: --display)",
+                        device, printable(display.name), difference(hello, display)));
     }
     // With equal digests these differ only in a device that is broken or lies.
     const std::size_t bytes = frame_bytes(display);

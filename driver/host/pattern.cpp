@@ -9,8 +9,10 @@ namespace xorvox::host {
 namespace {
 
 constexpr std::array kPatterns{
-    PatternInfo{Pattern::Panels, "panels", "which panel is which: panel p shows p + 1 bars in its own colour"},
-    PatternInfo{Pattern::Orientation, "orientation", "is a panel mirrored or turned: an F, the same in every slice"},
+    PatternInfo{Pattern::Panels, "panels", "which panel is which: panel p shows p + 1 bars in its own colour", false,
+                true},
+    PatternInfo{Pattern::Orientation, "orientation", "is a panel mirrored or turned: an F, the same in every slice",
+                false, true},
     PatternInfo{Pattern::Stairs, "stairs", "are slices in order: a staircase without a missing or swapped step"},
     PatternInfo{Pattern::Index, "index",
                 "where a cycle begins, and which way it goes: a bright plane, then a thin one"},
@@ -20,7 +22,7 @@ constexpr std::array kPatterns{
     PatternInfo{Pattern::Planes, "planes", "is a colour or a bit missing or swapped: each by itself, a second each",
                 true},
     PatternInfo{Pattern::Lines, "lines", "is a row or column missing or swapped: one after the other, ten a second",
-                true},
+                true, true},
     PatternInfo{Pattern::Walk, "walk", "is a wire swapped: one voxel after the other, one a cycle", true},
 };
 

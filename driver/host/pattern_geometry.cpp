@@ -49,15 +49,18 @@ PatternLight paint_spokes(const DisplayDescription& display, std::span<std::byte
     while (drawer + 1 < display.panel_count && !reaches_right(display.panels[drawer])) ++drawer;
     const Panel& panel = display.panels[drawer];
     const bool right = reaches_right(panel);
-    // When this side stands at the angle 0.
-    const double angle = panel.angle_deg + (right ? 0.0 : 180.0);
+    const bool left = !right && reaches_left(panel);
+    // When this side stands at the angle 0. A panel of one column above the axis is off it along its normal, or
+    // nowhere.
+    const double off_deg = panel.offset_mm < 0.0 ? 90.0 : -90.0;
+    const double angle = panel.angle_deg + (right ? 0.0 : left ? 180.0 : off_deg);
     const double begin = display.clockwise ? angle : -angle;
     const double half_slice = 0.5 * display.sweep_deg / display.slices;
     constexpr double kHalfSpokeDeg = 4.0;
     return paint_pixels(display, frame, false, [&](const PatternPixel& pixel) -> std::uint32_t {
         if (pixel.panel != drawer) return 0;
         const double along = along_mm(panel, pixel.place.column);
-        if (right ? along <= 0.0 : along >= 0.0) return 0;
+        if ((right && along <= 0.0) || (left && along >= 0.0)) return 0;
         if (is_near(display, pixel.slice, begin, std::max(half_slice, kHalfSpokeDeg))) {
             return full_code(display.format, kWhite);
         }
@@ -69,6 +72,7 @@ PatternLight paint_spokes(const DisplayDescription& display, std::span<std::byte
 /// A side of a panel of a rotor, which draws its part of a circle about the axis.
 struct Side {
     std::uint32_t panel;
+    bool right;
     std::uint32_t column;  ///< Upright; the one at the circle's radius.
     double turns;          ///< Its polar angle at phase 0.
 };
@@ -77,7 +81,7 @@ Side side_at(const DisplayDescription& display, std::uint32_t p, double mm) {
     const Panel& panel = display.panels[p];
     const std::uint32_t column = nearest_column(panel, mm);
     const glm::dvec2 place(along_mm(panel, column), -panel.offset_mm);
-    return {p, column, display::angle_turns(place) + panel.angle_deg / 360.0};
+    return {p, mm >= 0.0, column, display::angle_turns(place) + panel.angle_deg / 360.0};
 }
 
 struct Sides {
@@ -106,6 +110,21 @@ Sides sides_of(const DisplayDescription& display) {
     return found;
 }
 
+/// The band of the wall, and of the post, that `row` of a panel belongs to.
+std::uint32_t band_of(std::uint32_t row, std::uint32_t rows, const Sides& sides) {
+    return row * sides.count / rows;
+}
+
+/// How far upright column `column` stands out along the panel's normal, `up_mm` above the panel's middle.
+double out_mm(const Panel& panel, std::uint32_t column, double up_mm) {
+    double out = panel.offset_mm + up_mm * display::direction(panel.tilt_deg / 360.0).y;
+    if (panel.turned % 2 == 1) return out;  // Then rows stand out, every other one.
+    for (std::uint32_t c = 1; c < panel.columns; c += 2) {
+        if (upright_pixel(panel, c, 0).column == column) out += panel.skew_mm;
+    }
+    return out;
+}
+
 PatternLight paint_rotor_axis(const DisplayDescription& display, std::span<std::byte> frame) {
     const Sides sides = sides_of(display);
     const std::uint32_t arcs = 2 * sides.count;
@@ -113,14 +132,17 @@ PatternLight paint_rotor_axis(const DisplayDescription& display, std::span<std::
         const Panel& panel = display.panels[pixel.panel];
         const std::uint32_t rows = upright_rows(panel);
         const std::uint32_t code = panel_code(display.format, pixel.panel);
-        // The post: what is nearer to the axis than a pitch.
-        if (std::abs(along_mm(panel, pixel.place.column)) < upright_column_pitch_mm(panel)) return code;
+        const std::uint32_t band = band_of(pixel.place.row, rows, sides);
+        // The post: what is nearer to the axis than a pitch. One panel a band, so that colours do not mix.
+        if (std::abs(along_mm(panel, pixel.place.column)) < upright_column_pitch_mm(panel)) {
+            return sides.sides[band].panel == pixel.panel ? code : 0;
+        }
         const bool is_ring = rows > 2 && (pixel.place.row == 0 || pixel.place.row == rows - 1);
         for (std::uint32_t s = 0; s < sides.count; ++s) {
             const Side& side = sides.sides[s];
             if (side.panel != pixel.panel || side.column != pixel.place.column) continue;
             if (!is_ring) {
-                if (pixel.place.row * sides.count / rows == s) return code;
+                if (band == s) return code;
                 continue;
             }
             const double phase = phase_deg(display, pixel.slice) / 360.0;
@@ -221,7 +243,7 @@ PatternLight paint_wedge(const DisplayDescription& display, std::span<std::byte>
 PatternLight paint_index(const DisplayDescription& display, std::span<std::byte> frame) {
     if (display.kind == DisplayKind::RotatingPanel) return paint_spokes(display, frame);
     const Panel& panel = display.panels[0];
-    const std::uint32_t second = std::max(1u, display.slices / 4);
+    const std::uint32_t second = index_border_slice(display);
     const std::uint32_t pixels = std::uint32_t{panel.columns} * panel.rows;
     return paint_pixels(display, frame, false, [&](const PatternPixel& pixel) -> std::uint32_t {
         if (display.slices == 1) {
@@ -234,6 +256,29 @@ PatternLight paint_index(const DisplayDescription& display, std::span<std::byte>
             pixel.column == 0 || pixel.row == 0 || pixel.column == panel.columns - 1u || pixel.row == panel.rows - 1u;
         return pixel.slice == second && border ? full_code(display.format, kGreen) : 0;
     });
+}
+
+std::uint32_t index_border_slice(const DisplayDescription& display) {
+    return std::max(1u, display.slices / 4);
+}
+
+std::vector<AxisBand> axis_bands(const DisplayDescription& display) {
+    std::vector<AxisBand> bands;
+    if (display.kind != DisplayKind::RotatingPanel) return bands;
+    const Sides sides = sides_of(display);
+    for (std::uint32_t s = 0; s < sides.count; ++s) {
+        const Side& side = sides.sides[s];
+        const Panel& panel = display.panels[side.panel];
+        const double middle = 0.5 * (upright_rows(panel) - 1);
+        const double pitch = upright_row_pitch_mm(panel);
+        const double up = ((s + 0.5) * upright_rows(panel) / sides.count - 0.5 - middle) * pitch;
+        const double along = along_mm(panel, side.column);
+        const double out = out_mm(panel, side.column, up);
+        const double arc = middle * pitch * display::direction(panel.tilt_deg / 360.0).x;
+        bands.push_back(
+            {side.panel, side.right, std::sqrt(along * along + out * out), panel.lift_mm - arc, panel.lift_mm + arc});
+    }
+    return bands;
 }
 
 PatternLight paint_axis(const DisplayDescription& display, std::span<std::byte> frame) {

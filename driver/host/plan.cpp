@@ -33,6 +33,9 @@ constexpr std::array kControllers{
     Controller{"Raspberry Pi 4 or 5, 2 GB", 2048ull << 20},
 };
 
+constexpr double kSlowestGpioHz = 1.0;
+constexpr double kFastestGpioHz = 1e10;
+
 /// What a device half is lent for packets: no more than a frame needs, no more than makes chunks efficient.
 constexpr std::uint64_t kPacketBytes = 4096;
 
@@ -40,15 +43,20 @@ bool turns(const DisplayDescription& display) {
     return display.kind == DisplayKind::RotatingPanel || display.kind == DisplayKind::Helix;
 }
 
-std::uint32_t whole_slices(double slices) {
-    return static_cast<std::uint32_t>(std::clamp(slices, 0.0, double{kMaxSlices}));
+/// As many of the display's slices as there is room for.
+std::uint32_t whole_slices(const DisplayDescription& display, double room) {
+    return static_cast<std::uint32_t>(std::clamp(room, 0.0, double{1} * display.slices));
+}
+
+double larger_moving(const ExampleFrames& example) {
+    return std::max(example.constant.moving, example.gradient.moving);
 }
 
 LinkPlan plan_link(const DisplayDescription& display, const LinkCeiling& link, const ExampleFrames& example) {
     LinkPlan plan;
     const double rate = display.cycles_per_second;
     plan.frame_wire_bytes = static_cast<double>(raw_wire_bytes(frame_bytes(display)));
-    plan.compressed_frame_bytes = std::max(example.constant.moving, example.gradient.moving);
+    plan.compressed_frame_bytes = larger_moving(example);
     plan.rate_raw = plan.frame_wire_bytes * rate;
     plan.rate_compressed = plan.compressed_frame_bytes * rate;
     plan.frames_per_second_raw = link.bytes_per_second / plan.frame_wire_bytes;
@@ -59,12 +67,12 @@ LinkPlan plan_link(const DisplayDescription& display, const LinkCeiling& link, c
         plan.fit = Fit::Compressed;
     }
     const double bytes_a_frame = link.bytes_per_second / rate;
-    plan.slices_raw = whole_slices(bytes_a_frame / static_cast<double>(slice_bytes(display)));
+    plan.slices_raw = whole_slices(display, bytes_a_frame / static_cast<double>(slice_bytes(display)));
     while (plan.slices_raw > 0 &&
            static_cast<double>(raw_wire_bytes(slice_bytes(display) * plan.slices_raw)) > bytes_a_frame) {
         --plan.slices_raw;
     }
-    plan.slices_compressed = whole_slices(display.slices * bytes_a_frame / plan.compressed_frame_bytes);
+    plan.slices_compressed = whole_slices(display, display.slices * bytes_a_frame / plan.compressed_frame_bytes);
     for (const PixelFormat format : kPixelFormats) {
         if (bits_per_pixel(format) > bits_per_pixel(display.format)) continue;
         DisplayDescription other = display;
@@ -158,14 +166,35 @@ Expected<LinkCeiling> find_link(std::string_view name, std::optional<double> gpi
             if (gpio_rate_hz) return fail(fmt::format("--gpio-rate is the rate of --link gpio; {} has its own", name));
             return link;
         }
-        if (!gpio_rate_hz) return fail("--link gpio needs --gpio-rate HZ, the words a second on its lines");
-        if (!(*gpio_rate_hz > 0.0) || !std::isfinite(*gpio_rate_hz)) {
-            return fail(fmt::format("--gpio-rate is {}; it takes a positive number of words a second", *gpio_rate_hz));
+        if (!gpio_rate_hz) {
+            return fail("--link gpio needs --gpio-rate HZ, how often a second its 8 lines change, one byte each time");
+        }
+        if (!(*gpio_rate_hz >= kSlowestGpioHz && *gpio_rate_hz <= kFastestGpioHz)) {
+            return fail(
+                fmt::format("--gpio-rate is {}; it takes how often a second the 8 lines change, one byte each "
+                            "time: 1 to 1e10",
+                            *gpio_rate_hz));
         }
         link.bytes_per_second = *gpio_rate_hz;
         return link;
     }
     return fail(fmt::format("--link: there is no '{}'; there are {}", name, names));
+}
+
+Expected<std::vector<FormatRate>> compressed_rates(const DisplayDescription& display, const LinkCeiling& link,
+                                                   std::uint64_t most_samples) {
+    std::vector<FormatRate> rates;
+    for (const PixelFormat format : kPixelFormats) {
+        if (bits_per_pixel(format) > bits_per_pixel(display.format)) continue;
+        DisplayDescription other = display;
+        other.format = format;
+        const Expected<ExampleFrames> example = measure_example(other, most_samples);
+        if (!example) return tl::unexpected(example.error());
+        const double possible = link.bytes_per_second / larger_moving(*example);
+        rates.push_back({format, std::min(possible, display.cycles_per_second)});
+    }
+    std::ranges::reverse(rates);
+    return rates;
 }
 
 Plan make_plan(const DisplayDescription& display, const LinkCeiling& link, const ExampleFrames& example,

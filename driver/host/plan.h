@@ -25,8 +25,9 @@ struct LinkCeiling {
 /// Every link, in the order of the help. Static storage.
 std::span<const LinkCeiling> link_ceilings();
 
-/// The link of this name; gpio with its rate, words a second on 8 data lines. The message for another name lists the
-/// links; a rate that is missing, of another link or not positive is refused.
+/// The link of this name; gpio with its rate: how often a second its 8 lines change, one byte each time, from 1 to
+/// 1e10. The message for another name lists the links; a rate that is missing, of another link or out of range is
+/// refused.
 Expected<LinkCeiling> find_link(std::string_view name, std::optional<double> gpio_rate_hz);
 
 enum class Fit : std::uint8_t { No, Compressed, Raw };
@@ -40,8 +41,8 @@ struct LinkPlan {
     double rate_compressed = 0.0;             ///< Needed.
     double frames_per_second_raw = 0.0;       ///< That the link allows.
     double frames_per_second_compressed = 0;  ///< That the link allows.
-    std::uint32_t slices_raw = 0;             ///< Most slices a frame at the display's rate; 0: not even one.
-    std::uint32_t slices_compressed = 0;      ///< The same, taking the example's slices for like; up to kMaxSlices.
+    std::uint32_t slices_raw = 0;             ///< Most of the display's slices at its rate; 0: not even one.
+    std::uint32_t slices_compressed = 0;      ///< The same, taking the example's slices for like.
     std::vector<PixelFormat> formats_raw;     ///< Of at most as many bits as the display's: those that fit raw.
 };
 
@@ -95,6 +96,18 @@ struct Plan {
 /// and packet.
 Plan make_plan(const DisplayDescription& display, const LinkCeiling& link, const ExampleFrames& example,
                std::uint64_t device_state_bytes);
+
+/// A format in which the display could be driven, and at what rate.
+struct FormatRate {
+    PixelFormat format{};
+    double frames_per_second = 0.0;
+};
+
+/// In each format of at most as many bits as the display's, from the most bits on: the frames a second that the link
+/// allows, compressed as measure_example(…, most_samples) makes them; no more than the display shows. `display` must be
+/// valid. Fails, and throws, like measure_example().
+Expected<std::vector<FormatRate>> compressed_rates(const DisplayDescription& display, const LinkCeiling& link,
+                                                   std::uint64_t most_samples);
 
 /// A controller that people build displays with.
 struct Controller {

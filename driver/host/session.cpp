@@ -34,11 +34,15 @@ Session::Impl::Impl(Link the_link, const DisplayDescription& the_display, const 
 }
 
 Status Session::Impl::poll(std::uint64_t now) {
-    now_ns = now;
     if (!started) {
         started = true;
-        connecting_since_ns = moved_ns = now;
+        connecting_since_ns = moved_ns = willing_ns = now;
+    } else if (now - now_ns > timeout_ns) {
+        // The program slept or was stopped: the peer cannot be blamed for a time in which nobody tried.
+        connecting_since_ns += now - now_ns;
+        willing_ns += now - now_ns;
     }
+    now_ns = now;
     bool moved = false;
     if (info.two_way && state != SessionState::Failed) moved = receive_all();
     if (info.two_way && state != SessionState::Failed) watch_clock();
@@ -111,7 +115,7 @@ void Session::Impl::adopt(const Hello& hello) {
     silent_timeouts = 0;
     asked = false;
     controls.begin_again();
-    controls.heed(device_status.faults);
+    if (options.clears_silence) controls.heed(device_status.faults);
 }
 
 /// The device fell silent: asks who is there.
@@ -246,7 +250,7 @@ void Session::Impl::on(const DeviceStatus& message) {
     if (!has_status) ask_status_ns = now_ns + timeout_ns;
     has_status = true;
     if (message.has_frame != 0) set_presented(message.shown_frame, message.shown_crc, 0);
-    controls.heed(message.faults);
+    if (options.clears_silence) controls.heed(message.faults);
     controls.confirmed_by(message);
 }
 

@@ -38,6 +38,7 @@ struct SessionOptions {
     std::uint32_t attempts = 10;  ///< Of hello, of one frame and of one control, before it is given up.
     std::int64_t present_timeout_ns =
         10'000'000'000;  ///< A display that shows no new frame for this long although one is due has failed. 0: never.
+    bool clears_silence = true;  ///< Clears the fault of a silent host, since there is one now; false: looks only.
 };
 
 enum class SessionState : std::uint8_t { Connecting, Ready, Failed };
@@ -74,8 +75,9 @@ public:
 
     /// Moves everything that can move now. `now_ns` never goes back. Call it at least every 100 ms, and every eighth of
     /// device_status().watchdog_ms where that is shorter, also when there is nothing to send: it keeps the device's
-    /// watchdog quiet. It clears the fault of a silent host by itself, and no other. Ok; WouldBlock when nothing moved
-    /// (wait for events() on the link, not for long); Closed or Refused once the session has Failed: error() says why.
+    /// watchdog quiet. It clears the fault of a silent host by itself (SessionOptions::clears_silence), and no other.
+    /// Ok; WouldBlock when nothing moved (wait for events() on the link, not for long); Closed or Refused once the
+    /// session has Failed: error() says why.
     Status poll(std::uint64_t now_ns);
 
     /// Takes a copy of a frame of frame_bytes(display) to be sent; `present_at_ns` is of the device's clock, 0: as soon

@@ -78,7 +78,8 @@ struct Session::Impl {
     std::uint32_t silent_timeouts = 0;  ///< Of frames, since anything was heard.
     bool asked = false;                 ///< Something was sent since the device was heard, first at asked_ns.
     std::uint64_t asked_ns = 0;
-    std::uint64_t moved_ns = 0;  ///< When the link last took a packet.
+    std::uint64_t moved_ns = 0;    ///< When the link last took a packet.
+    std::uint64_t willing_ns = 0;  ///< The same, without the times in which it was not asked to.
 
     std::vector<std::byte> in;
     std::uint32_t received_sequence = 0;

@@ -46,7 +46,7 @@ void Session::Impl::watch_transfer() {
             }
             break;
         case Phase::Sending:
-            if (passed(moved_ns, options.attempts)) {
+            if (passed(willing_ns, options.attempts)) {
                 fail_with(Status::Closed,
                           fmt::format("the peer on the link {} takes no more data; is it still running?", info.name));
             }
@@ -102,7 +102,7 @@ bool Session::Impl::send_all() {
         statistics.bytes_sent += out_bytes;
         out_bytes = 0;
         moved = true;
-        moved_ns = now_ns;
+        moved_ns = willing_ns = now_ns;
         if (!asked) {
             asked = true;
             asked_ns = now_ns;

@@ -101,12 +101,15 @@ void SliceMap::map_columns(const Lattice& lattice, const DisplayDescription& dis
         columns_.push_back(y * grid_.nx + x);
     }
     bases_.assign(lattice.z0.begin(), lattice.z0.end());
-    // On a helix every column begins in the lowest voxel; it is k that says which one, not the rounding of its base.
+    // On a helix every column begins in the lowest step of height; it is k that says which, not the rounding of its
+    // base.
     if (display.kind == DisplayKind::Helix) bases_.clear();
     if (has_own_heights()) return;
     heights_.reserve(lattice.nz);
     for (std::uint32_t k = 0; k < lattice.nz; ++k) {
-        heights_.push_back(display.kind == DisplayKind::Helix ? k : height(lattice.z[k]));
+        heights_.push_back(display.kind == DisplayKind::Helix
+                               ? static_cast<std::uint32_t>(std::uint64_t{k} * grid_.nz / lattice.nz)
+                               : height(lattice.z[k]));
     }
 }
 
@@ -194,8 +197,12 @@ std::size_t SliceMap::voxel(std::uint32_t x, std::uint32_t y, std::uint32_t k) c
 
 bool SliceMap::is_lit(std::uint32_t x, std::uint32_t y, std::uint32_t k) const {
     if (identical_) return true;
+    return lit_heights_[k] != 0 && is_lit_column(x, y);
+}
+
+bool SliceMap::is_lit_column(std::uint32_t x, std::uint32_t y) const {
     const std::size_t words = row_words(display_lattice_.view().nx);
-    return lit_heights_[k] != 0 && (lit_[y * words + x / 64] >> (x % 64) & 1u) != 0;
+    return (lit_[y * words + x / 64] >> (x % 64) & 1u) != 0;
 }
 
 Status SliceMap::sample(ConstBitVolumeView volume, BitVolumeView samples) const {
@@ -269,44 +276,46 @@ SliceCoverage SliceMap::coverage(LightMode mode) const {
         result.least_visits = result.most_visits = 1;
         return result;
     }
+    for (std::uint32_t y = 0; y < grid_.ny; ++y) {
+        for (std::uint32_t x = 0; x < grid_.nx; ++x) result.reachable += is_reachable(x, y) ? grid_.nz : 0;
+    }
     const Lattice lattice = display_lattice_.view();
     const bool uniform = mode == LightMode::Uniform;
-    // Where all columns have the same heights, visits are those of the plan times those of the heights.
     const std::size_t layer = std::size_t{grid_.nx} * grid_.ny;
-    std::vector<std::uint32_t> of_place(has_own_heights() ? result.voxels : layer);
+    // What is visited: voxels, or, where all columns have the same heights, columns of voxels; a mention a visit.
+    std::vector<std::size_t> visited;
+    std::size_t column = 0;
     for (std::uint32_t y = 0; y < lattice.ny; ++y) {
-        for (std::uint32_t x = 0; x < lattice.nx; ++x) {
-            if (!has_own_heights()) {
-                const std::size_t words = row_words(lattice.nx);
-                if (!uniform || (lit_[y * words + x / 64] >> (x % 64) & 1u) != 0) {
-                    ++of_place[columns_[std::size_t{y} * lattice.nx + x]];
-                }
-                continue;
-            }
-            if (!uniform || is_lit(x, y, 0)) ++of_place[voxel(x, y, 0)];
+        for (std::uint32_t x = 0; x < lattice.nx; ++x, ++column) {
+            if (uniform && !is_lit_column(x, y)) continue;
+            const std::uint32_t place = columns_[column];
+            if (!is_reachable(place % grid_.nx, place / grid_.nx)) continue;
+            visited.push_back(place + (has_own_heights() ? layer * height(column, 0) : 0));
         }
     }
+    std::ranges::sort(visited);
     // How many heights are visited so often.
     std::map<std::uint32_t, std::size_t> heights_by_visits{{1, 1}};
     if (!has_own_heights()) {
         std::vector<std::uint32_t> of_height(grid_.nz);
         for (std::uint32_t k = 0; k < lattice.nz; ++k) of_height[heights_[k]] += uniform ? lit_heights_[k] : 1u;
         heights_by_visits.clear();
-        for (const std::uint32_t visits : of_height) ++heights_by_visits[visits];
+        for (const std::uint32_t visits : of_height) {
+            if (visits > 0) ++heights_by_visits[visits];
+        }
     }
     result.least_visits = kNobody;
-    for (std::size_t place = 0; place < of_place.size(); ++place) {
-        const auto column = static_cast<std::uint32_t>(place % layer);
-        if (!is_reachable(column % grid_.nx, column / grid_.nx)) continue;
+    for (std::size_t i = 0; i < visited.size();) {
+        std::size_t j = i;
+        while (j < visited.size() && visited[j] == visited[i]) ++j;
         for (const auto& [of_height, heights] : heights_by_visits) {
-            result.reachable += heights;
-            const std::uint32_t visits = of_place[place] * of_height;
-            if (visits == 0) continue;
+            const std::uint32_t visits = static_cast<std::uint32_t>(j - i) * of_height;
             result.covered += heights;
             result.visits += std::uint64_t{visits} * heights;
             result.least_visits = std::min(result.least_visits, visits);
             result.most_visits = std::max(result.most_visits, visits);
         }
+        i = j;
     }
     if (result.covered == 0) result.least_visits = 0;
     return result;

@@ -67,6 +67,7 @@ private:
     std::uint32_t height(std::size_t column, std::uint32_t k) const;
     bool has_shape(ConstBitVolumeView volume, const Lattice& lattice) const;
     bool has_own_heights() const { return !bases_.empty(); }
+    bool is_lit_column(std::uint32_t x, std::uint32_t y) const;
     bool is_reachable(std::uint32_t x, std::uint32_t y) const;
 
     const DisplayLattice& display_lattice_;

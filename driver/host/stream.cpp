@@ -136,13 +136,13 @@ bool FrameStream::send_next() {
     if (waiting_ == 0) return false;
     if (!session_->two_way()) return hand_over(0, 0);
     if (session_->state() != SessionState::Ready) return false;
+    if (flights_.size() >= options_.max_in_flight) return false;
     if (!boundaries_.known()) {
         if (finding_boundary_ || !hand_over(0, 0)) return false;
         finding_boundary_ = true;
         ++next_index_;
         return true;
     }
-    if (flights_.size() >= options_.max_in_flight) return false;
     const std::uint64_t arrival_ns = device_time_ns() + delivery_ns();
     const Slot slot = slot_not_before(arrival_ns);
     const std::uint64_t present_at_ns = slot.boundary_ns - half_cycle_ns();

@@ -97,6 +97,21 @@ TEST_CASE("a model that turns reaches a display in another program, and every fr
     CHECK_THAT(json, Catch::Contains("\"simulated_time\": false"));
 }
 
+TEST_CASE("a display that leaves in the middle of a stream costs the rest, not the figures", "[cli]") {
+    Background display({"sim", "--display", "cube8-595", "--listen", "tcp:0"});
+    const std::string line = display.line().value_or("");
+    const std::string address = line.substr(line.rfind("tcp:"));
+    Background host({"show", kDuck, "--display", "cube8-595", "--spin", "30", "--seconds", "60", "--to", address});
+    std::string said;
+    while (!said.starts_with("frame 3:")) said = display.line().value_or("frame 3: the display ended by itself");
+    CHECK(display.terminate() == 0);
+    std::string figures;
+    while (const std::optional<std::string> more = host.line()) figures += *more + "\n";
+    CHECK_THAT(figures,
+               Catch::Contains("inside at the end") && Catch::Contains("sent: ") && Catch::Contains("lateness: "));
+    CHECK(host.terminate() == 2);
+}
+
 TEST_CASE("a model that turns into a file gives the same recording every time", "[cli]") {
     const Folder folder;
     const std::string rotor = folder.file("rotor.toml", kRotor);
@@ -132,7 +147,7 @@ TEST_CASE("a distant display tells how it is, and does what it is told", "[cli]"
     CHECK(run_program({"control", "--display", "cube8-595", "--to", "file:x"}).status == 2);
 }
 
-TEST_CASE("a display whose host fell silent says so, and the next host clears that fault", "[cli]") {
+TEST_CASE("a display whose host fell silent says so when it is asked, and lights again for a host", "[cli]") {
     Background display({"sim", "--display", "cube8-595", "--listen", "tcp:0"});
     const std::string line = display.line().value_or("");
     const std::string address = line.substr(line.rfind("tcp:"));
@@ -144,7 +159,71 @@ TEST_CASE("a display whose host fell silent says so, and the next host clears th
         REQUIRE(more.has_value());
         said = *more;
     }
-    CHECK_THAT(succeeds({"control", "--display", "cube8-595", "--to", address}).out, Catch::Contains("no fault"));
+    const std::string asked = succeeds({"control", "--display", "cube8-595", "--to", address}).out;
+    CHECK_THAT(asked, Catch::Contains("fault 1: its host fell silent") && Catch::Contains("but is dark"));
+    CHECK_THAT(succeeds({"control", "--display", "cube8-595", "--to", address, "--light", "--watchdog", "0"}).out,
+               Catch::Contains("no fault"));
+}
+
+TEST_CASE("a display that is built otherwise than its file says shows its light elsewhere", "[cli]") {
+    const Folder folder;
+    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string mirrored = folder.file("mirrored.toml", kRotor + "mirrored = true\nlift_mm = 7\n");
+    const auto picture = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"pattern", rotor,     "orientation", "--view",          "orthographic",
+                                           "--frame", "display", "--png",       folder.path(name), "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return succeeds(arguments).out;
+    };
+    const std::string right = picture("right.png", {});
+    CHECK(picture("same.png", {"--built", rotor}).size() == right.size() - 1);
+    const std::string wrong = picture("wrong.png", {"--built", mirrored});
+    CHECK(read_file(folder.path("right.png")) == read_file(folder.path("same.png")));
+    CHECK(read_file(folder.path("right.png")) != read_file(folder.path("wrong.png")));
+    // The frame is the file's; the light is measured on what is built.
+    CHECK(number(wrong, "pixels_lit") == number(right, "pixels_lit"));
+    CHECK(number(wrong, "light_outside") == 0);
+    // What moves takes it as well.
+    const std::vector<std::string> spin{"show", kDuck,       "--display", rotor,   "--spin",
+                                        "30",   "--seconds", "0.1",       "--json"};
+    std::vector<std::string> as_built = spin;
+    as_built.insert(as_built.end(), {"--built", mirrored});
+    CHECK(number(succeeds(as_built).out, "light_outside") == 0);
+}
+
+TEST_CASE("a display that cannot be built as --built says is refused", "[cli]") {
+    const Folder folder;
+    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string points = folder.file("points.toml", R"(
+name = "points"
+kind = "free-points"
+format = "rgb332"
+cycles_per_second = 50
+points = [[0, 0, 0], [30, 0, 0], [0, 30, 30]]
+
+[[panel]]
+columns = 3
+rows = 1
+)");
+    const auto refused = [&](const std::vector<std::string>& more, const std::string& why) {
+        std::vector<std::string> arguments{"show", kDuck, "--display", rotor};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run_program(arguments);
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.err, Catch::Contains(why));
+    };
+    refused({"--built", "cube8-595"}, "small-rotor cannot really be built like cube8-595: another kind");
+    refused({"--built", "nothing"}, "--built: ");
+    refused({"--built", rotor, "--to", "file:" + folder.path("out")}, "--to loopback");
+    refused({"--frame", "display"}, "--png");
+    refused({"--frame", "room", "--png", folder.path("x.png")}, "room");
+    CHECK(folder.names() == std::vector<std::string>{"points.toml", "rotor.toml"});
+    // Points that are borrowed from a file live as long as its display.
+    const Outcome moved = run_program({"pattern", points, "all", "--built", points, "--json"});
+    CAPTURE(moved.err);
+    CHECK(moved.status == 0);
+    CHECK(number(moved.out, "voxels_lit") == 3);
 }
 
 TEST_CASE("bench displays tells headroom and resampling for each display", "[cli]") {

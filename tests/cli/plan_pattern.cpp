@@ -119,6 +119,18 @@ TEST_CASE("plan answers for every preset over every link, fit or not", "[cli]") 
                Catch::Contains("\"bytes_per_second\": 2e+06"));
 }
 
+TEST_CASE("plan says what a link that is too slow would carry", "[cli]") {
+    const std::string text = succeeds({"plan", "vortex", "--link", "hid-fs"}).out;
+    CHECK_THAT(text, Catch::Contains("would work") && Catch::Contains(" frames a second in rgb332") &&
+                         Catch::Contains(" in mono1, with compression") && Catch::Contains("over usb-hs"));
+    const std::string json = succeeds({"plan", "vortex", "--link", "hid-fs", "--json"}).out;
+    CHECK(is_json(json));
+    CHECK_THAT(json, Catch::Contains("\"would_work\": [{\"format\": \"rgb332\""));
+    // As many slices as in the text: the display has no more.
+    CHECK_THAT(succeeds({"plan", "vortex", "--json"}).out,
+               Catch::Contains("\"slices_compressed\": 360") && Catch::Contains("\"would_work\": []"));
+}
+
 TEST_CASE("plan refuses what it cannot answer", "[cli]") {
     refused({"plan", "nope"}, {"nope", "vortex"});
     refused({"plan"}, {"display"});
@@ -126,6 +138,9 @@ TEST_CASE("plan refuses what it cannot answer", "[cli]") {
     refused({"plan", "candle", "--link", "gpio"}, {"--gpio-rate"});
     refused({"plan", "candle", "--link", "gpio", "--gpio-rate", "0"}, {"--gpio-rate"});
     refused({"plan", "candle", "--link", "gpio", "--gpio-rate", "-3"}, {"--gpio-rate"});
+    for (const std::string rate : {"1e30", "1e-9"}) {
+        refused({"plan", "candle", "--link", "gpio", "--gpio-rate", rate}, {"--gpio-rate", "8 lines", "1 to 1e10"});
+    }
     refused({"plan", "candle", "--link", "gpio", "--gpio-rate", "fast"}, {"--gpio-rate"});
     refused({"plan", "candle", "--link", "tcp", "--gpio-rate", "1e6"}, {"--gpio-rate", "gpio"});
     refused({"plan", "candle", "vortex"}, {"vortex"});
@@ -171,11 +186,38 @@ TEST_CASE("a pattern is drawn into a picture", "[cli]") {
     CHECK(read_file(folder.path("axis.png")).starts_with("\x89PNG"));
 }
 
+TEST_CASE("a picture of a pattern to be read at rest has one slice, and one of very many pixels is thinned out",
+          "[cli]") {
+    const Folder folder;
+    const std::vector<std::string> picture{"--view", "orthographic", "--png", folder.path("out.png"), "--json"};
+    const auto shown = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), picture.begin(), picture.end());
+        return succeeds(arguments).out;
+    };
+    CHECK_THAT(shown({"pattern", "candle", "orientation"}), Catch::Contains("\"slices_shown\": 1,"));
+    CHECK_THAT(shown({"pattern", "candle", "axis"}), Catch::Contains("\"slices_shown\": 24,"));
+    CHECK_THAT(shown({"pattern", "cube8-595", "orientation"}), Catch::Contains("\"slices_shown\": 8,"));
+    CHECK_THAT(succeeds({"pattern", "candle", "orientation", "--json"}).out, Catch::Contains("\"slices_shown\": 24,"));
+    // 199,618,560 pixels, of which 25 slices apart fewer than 8 million stay.
+    CHECK_THAT(succeeds({"pattern", "vx1", "all"}).out,
+               Catch::Contains("199,618,560 pixels") && Catch::Contains("8 of the 192 slices"));
+}
+
+TEST_CASE("a pattern says where its marks are to be", "[cli]") {
+    CHECK_THAT(succeeds({"pattern", "candle", "axis"}).out,
+               Catch::Contains("band 0, the lowest: panel 0, right side") && Catch::Contains("mm from the axis"));
+    // A quarter of the time of a sine of 80 mm.
+    CHECK_THAT(succeeds({"pattern", "vx1", "index", "--json"}).out,
+               Catch::Contains("slice 0, all of it, at -40.0 mm; slice 48, its border, 11.9 mm above it"));
+}
+
 TEST_CASE("patterns are recorded, and equal ones are equal files", "[cli]") {
     const Folder folder;
     for (const std::string name : {"a", "b"}) {
         succeeds({"pattern", "candle", "panels", "--to", "file:" + folder.path(name)});
     }
+    CHECK_THAT(succeeds({"pattern", "candle", "panels", "--to", "file:" + folder.path("c")}).out,
+               Catch::Contains("sent: ") && Catch::Contains(folder.path("c") + " is written"));
     CHECK(read_file(folder.path("a")).size() > 100);
     CHECK(read_file(folder.path("a")) == read_file(folder.path("b")));
 }

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "driver/display/toml.h"
+#include "driver/host/pattern.h"
 #include "tests/catch.h"
 #include "tests/gl/required.h"
 
@@ -66,6 +67,75 @@ TEST_CASE("a ball of light fills the picture as one solid, unclipped, before a d
         }
     }
     CHECK(brightest(image, 360, 240) > brightest(image, 600, 480) + 30);
+}
+
+/// The light of a pattern; of one that moves, the last of its frames.
+sim::LightField light_of(const DisplayDescription& display, host::Pattern pattern) {
+    std::vector<std::byte> frame(frame_bytes(display));
+    host::paint_pattern(display, pattern, host::pattern_frames(display, pattern) - 1, frame);
+    return sim::expose(display, frame, 255);
+}
+
+/// Whether a pixel is much darker than each of its neighbours.
+bool is_speck(const sim::Image& image, std::uint32_t column, std::uint32_t row) {
+    if (column == 0 || row == 0 || column + 1 == image.width || row + 1 == image.height) return false;
+    int darkest = 255;
+    for (std::uint32_t y = row - 1; y <= row + 1; ++y) {
+        for (std::uint32_t x = column - 1; x <= column + 1; ++x) {
+            if (x != column || y != row) darkest = std::min(darkest, brightest(image, x, y));
+        }
+    }
+    return brightest(image, column, row) + 60 < darkest;
+}
+
+TEST_CASE("no pixel of a pattern's picture is black, neither light nor ground") {
+    // A voxel that is seen from straight in front is where rounding once made a pixel that was no number, and black
+    // everything below it and on its right.
+    const auto [preset, pattern] = GENERATE(table<const char*, host::Pattern>(
+        {{"cube8-595", host::Pattern::Orientation}, {"cube20-ws2812", host::Pattern::Axis}}));
+    INFO(preset);
+    const auto display = load_display(preset);
+    REQUIRE(display.has_value());
+    const auto picture = sim::render_perspective(*display, light_of(*display, pattern));
+    XORVOX_NEED_GL(picture);
+    const sim::Image& image = picture->image;
+    std::size_t black = 0;
+    std::size_t specks = 0;
+    for (std::uint32_t row = 0; row < image.height; ++row) {
+        for (std::uint32_t column = 0; column < image.width; ++column) {
+            black += brightest(image, column, row) < 4;
+            specks += is_speck(image, column, row);
+        }
+    }
+    CHECK(black == 0);
+    CHECK(specks == 0);
+}
+
+TEST_CASE("a picture that frames the display has all of its light in view, wherever it is") {
+    const auto display = load_display("vortex");
+    REQUIRE(display.has_value());
+    sim::LightField corner{display->format, 255, {}};
+    corner.flashes.push_back({{150.0, 0.0, 70.0}, 0xff, 0});
+    sim::PictureOptions options{.width = 320, .height = 240, .azimuth_deg = 0.0};
+    const auto near = sim::render_perspective(*display, corner, options);
+    XORVOX_NEED_GL(near);
+    options.framing = sim::Framing::Display;
+    const auto whole = sim::render_perspective(*display, corner, options);
+    REQUIRE(whole.has_value());
+    CHECK(near->covered > 0.3);
+    CHECK(whole->covered > 0.0);
+    CHECK(whole->covered < 0.01);
+    // A light far outside of the display is in the picture too.
+    corner.flashes.push_back({{-900.0, 0.0, 0.0}, 0xff, 0});
+    const auto wide = sim::render_perspective(*display, corner, options);
+    REQUIRE(wide.has_value());
+    int left = 0;
+    for (std::uint32_t row = 0; row < 240; ++row) {
+        for (std::uint32_t column = 0; column < 40; ++column) {
+            left = std::max(left, brightest(wide->image, column, row));
+        }
+    }
+    CHECK(left > 60);
 }
 
 TEST_CASE("pictures by EGL and OSMesa are nearly equal") {

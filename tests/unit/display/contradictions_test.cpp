@@ -78,10 +78,10 @@ TEST_CASE("panels through each other are refused") {
     check_fine(display);
     display.panels[1].angle_deg = 0;
     CHECK(message(display) ==
-          "display \"mine\": panel 2, its face passes through or covers that of panel 1; move one"
+          "display \"mine\": panel 1, its face passes through or covers that of panel 0; move one"
           " of them by shift_mm, offset_mm, lift_mm or angle_deg");
     display.panels[1].angle_deg = 90;
-    CHECK_THAT(message(display), Contains("panel 2, its face passes through"));
+    CHECK_THAT(message(display), Contains("panel 1, its face passes through"));
     display.panels[1].offset_mm = 4;
     check_fine(display);
 }
@@ -92,7 +92,7 @@ TEST_CASE("the line of a panel in another's way is its table's") {
         "name = \"x\"\nkind = \"rotating-panel\"\nformat = \"mono1\"\nslices = 4\ncycles_per_second = 1\n";
     const auto display = parse_display(head + panel + panel, "x.toml");
     REQUIRE_FALSE(display);
-    CHECK_THAT(display.error().message, Contains("x.toml: line 11: panel 2: its face passes through or covers"));
+    CHECK_THAT(display.error().message, Contains("x.toml: line 11: panel 1: its face passes through or covers"));
     CHECK(find_mistakes(head + panel + "shift_mm = -2\n" + panel + "shift_mm = 2\n").empty());
 }
 
@@ -100,12 +100,12 @@ TEST_CASE("wiring used twice is refused") {
     auto display = wired();
     check_fine(display);
     display.panels[1].connector = 0;
-    CHECK_THAT(message(display), Contains("panel 2, chain_position: found 0 on connector 0, where panel 1 is already"));
+    CHECK_THAT(message(display), Contains("panel 1, chain_position: found 0 on connector 0, where panel 0 is already"));
     display.panels[1].chain_position = 1;
     display.scan.bit_planes = 1;  // A chain of two takes twice as long.
     check_fine(display);
     display.panels[1].chain_position = 2;
-    CHECK_THAT(message(display), Contains("panel 2, chain_position: found 2, but no panel is at 1 on connector 0"));
+    CHECK_THAT(message(display), Contains("panel 1, chain_position: found 2, but no panel is at 1 on connector 0"));
     check_fine(rotor());  // Nothing is known of its wiring.
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("wiring that a file gives twice is refused, whatever drives it") {
     const auto mistakes = find_mistakes(two + "connector = 0\nchain_position = 0\n");
     REQUIRE(mistakes.size() == 1);
     CHECK(mistakes[0].line == 19);
-    CHECK_THAT(mistakes[0].message, Contains("panel 2: chain_position: found 0 on connector 0, where panel 1 is"));
+    CHECK_THAT(mistakes[0].message, Contains("panel 1: chain_position: found 0 on connector 0, where panel 0 is"));
     CHECK(find_mistakes(two + "connector = 1\n").empty());
 }
 
@@ -164,9 +164,9 @@ TEST_CASE("strings that are too long for the frame rate are refused") {
     display.scan.latch_ns = 300'000;
     display.scan.strings = 8;
     check_fine(display);
-    display.scan.strings = 7;
-    CHECK_THAT(message(display), Contains("at which a frame has 1.667e+04 µs, but its scan needs 1.785e+04 µs; what"
-                                          " fits: 14 slices, or 56 cycles a second"));
+    display.scan.strings = 4;
+    CHECK_THAT(message(display), Contains("at which a frame has 16.67 ms, but its scan needs 31.02 ms; what"
+                                          " fits: 8 slices, or 32.2 cycles a second"));
 }
 
 TEST_CASE("what drives the display must know what the scan is told") {
@@ -180,21 +180,107 @@ TEST_CASE("what drives the display must know what the scan is told") {
     CHECK_THAT(refused([](Scan& s) { s.serpentine = true; }), Contains("scan.serpentine"));
     CHECK_THAT(refused([](Scan& s) { s.layers_first = true; }), Contains("scan.register_order"));
     CHECK_THAT(refused([](Scan& s) { s.planes_per_frame = 24; }), Contains("scan.planes_per_frame: found 24"));
-    CHECK_THAT(refused([](Scan& s) { s.row_groups = 9; }), Contains("scan.row_groups: found 9; allowed: at most 8"));
-    CHECK_THAT(refused([](Scan& s) {
-                   s.driver = DriverChip::Ws2812;
-                   s.row_groups = 2;
-               }),
-               Contains("scan.row_groups: found 2; allowed with driver \"ws2812\": 1"));
+    CHECK_THAT(refused([](Scan& s) { s.row_groups = 9; }),
+               Contains("scan.row_groups: found 9; allowed: what divides 8"));
+    CHECK_THAT(refused([](Scan& s) { s.row_groups = 3; }),
+               Contains("scan.row_groups: found 3; allowed: what divides 8"));
+    CHECK_THAT(refused([](Scan& s) { s.driver = DriverChip::Ws2812; }),
+               Contains("format: found \"mono1\"; allowed with driver \"ws2812\", whose LEDs have three colours: rgb"));
     auto display = wired();
-    display.scan.row_groups = 33;
-    CHECK_THAT(message(display), Contains("at most 32, for panel 1 has 64 rows, which hub75 lights in two halves"));
+    display.scan.row_groups = 64;
+    CHECK_THAT(message(display), Contains("found 64; allowed: what divides 32, for panel 0 has 64 rows, which hub75"
+                                          " lights in two halves"));
+    display.scan.row_groups = 1;
+    display.panels[1].rows = 63;
+    CHECK_THAT(message(display), Contains("panel 1, rows: found 63; allowed with driver \"hub75\", which lights two"));
     display = swept();
     display.scan.driver = DriverChip::Dlp;
     display.scan.planes_per_frame = 24;
     check_fine(display);
     display.format = PixelFormat::Rgb111;
     CHECK_THAT(message(display), Contains("scan.planes_per_frame: found 24; allowed with format \"rgb111\": 1"));
+}
+
+TEST_CASE("strings hold LEDs of three colours, equally many each") {
+    auto display = stack();
+    display.scan.driver = DriverChip::Apa102;
+    for (const PixelFormat format : kPixelFormats) {
+        display.format = format;
+        CHECK(validate_display(display).has_value() == (bits_per_pixel(format) > bits_per_channel(format)));
+    }
+    display.format = PixelFormat::Rgb888;
+    display.scan.strings = 32;
+    check_fine(display);
+    display.scan.strings = 3;
+    CHECK_THAT(message(display), Contains("scan.strings: found 3; allowed: what divides the 256 LEDs"));
+    display.scan.strings = 1;
+    display.scan.row_groups = 2;
+    CHECK_THAT(message(display), Contains("scan.row_groups: found 2; allowed with driver \"apa102\": 1"));
+}
+
+TEST_CASE("strings that move hold the LEDs of one slice") {
+    auto display = swept();  // 8 × 8 LEDs, 4 slices.
+    display.format = PixelFormat::Rgb888;
+    display.scan.driver = DriverChip::Ws2812;
+    display.scan.strings = 64;
+    display.scan.serpentine = true;
+    check_fine(display);
+    display.scan.strings = 128;
+    CHECK_THAT(message(display), Contains("scan.strings: found 128; allowed: what divides the 64 LEDs"));
+}
+
+TEST_CASE("one channel has no order of colours") {
+    auto display = stack();
+    display.scan.color_order = {'g', 'r', 'b'};
+    CHECK_THAT(message(display), Contains("scan.color_order: found \"grb\"; allowed with format \"mono1\""));
+    display.format = PixelFormat::Rgb111;
+    check_fine(display);
+}
+
+TEST_CASE("the shortest light is at least as long as its edges where all three are known") {
+    auto display = stack();
+    display.scan.min_on_ns = 99;
+    display.scan.rise_ns = 60;
+    check_fine(display);
+    display.scan.fall_ns = 40;
+    CHECK_THAT(message(display),
+               Contains("scan.min_on_ns: found 99; allowed: at least 100, which rise_ns and fall_ns"));
+    display.scan.min_on_ns = 100;
+    check_fine(display);
+    display.scan.min_on_ns = 0;
+    check_fine(display);
+}
+
+TEST_CASE("a limit of current needs the current of an LED") {
+    auto display = stack();
+    display.power.limit_ma = 500;
+    CHECK_THAT(message(display),
+               Contains("power.limit_ma: found 500, but it needs led_ma, or no current can be reckoned"));
+    display.power.led_ma = 10;
+    check_fine(display);
+
+    const std::string file =
+        "name = \"x\"\nkind = \"stacked-planes\"\nformat = \"mono1\"\ncycles_per_second = 1\nslices = 3\n"
+        "plane_pitch_mm = 1\n[[panel]]\ncolumns = 3\nrows = 1\ncolumn_pitch_mm = 1\nrow_pitch_mm = 1\n[power]\n"
+        "max_duty = 0.5\nlimit_ma = 500\n";
+    const auto mistakes = find_mistakes(file);
+    REQUIRE(mistakes.size() == 1);
+    CHECK(mistakes[0].line == 14);
+    CHECK(mistakes[0].contradiction);
+    CHECK(find_mistakes(file + "led_ma = 2\n").empty());
+}
+
+TEST_CASE("light that is longer than a slice is said once, as a rate that the scan cannot reach") {
+    const std::string file =
+        "name = \"x\"\nkind = \"stacked-planes\"\nformat = \"rgb332\"\ncycles_per_second = 60000\nslices = 4\n"
+        "plane_pitch_mm = 1\n[[panel]]\ncolumns = 3\nrows = 1\ncolumn_pitch_mm = 1\nrow_pitch_mm = 1\n[scan]\n"
+        "min_on_ns = 4000\n";
+    for (const char* power : {"", "[power]\nmax_duty = 0.3\n", "[power]\nmax_duty = 1\n"}) {
+        const auto mistakes = find_mistakes(file + power);
+        REQUIRE(mistakes.size() == 1);
+        CHECK(mistakes[0].line == 4);
+        CHECK_THAT(mistakes[0].message, Contains("at which a slice has 4.167 µs, but its scan needs 28 µs"));
+    }
 }
 
 TEST_CASE("a duty below what the scan lights is refused") {
@@ -205,7 +291,7 @@ TEST_CASE("a duty below what the scan lights is refused") {
     check_fine(display);
     display.power.max_duty = 0.17;
     CHECK_THAT(message(display),
-               Contains("power.max_duty: found 0.17, but scan.min_on_ns lights an LED for 3000 µs of 1.667e+04 µs"));
+               Contains("power.max_duty: found 0.17, but scan.min_on_ns lights an LED for 3 ms of 16.67 ms"));
     auto turning = rotor();
     turning.scan.min_on_ns = 1'000'000;
     turning.power.max_duty = 0.25;
@@ -219,7 +305,7 @@ TEST_CASE("half a turn needs a panel that comes to stand where it was") {
     display.sweep_deg = 180;
     CHECK_THAT(message(display), Contains("sweep_deg: found 180 with 2 panels"));
     display.panel_count = 1;
-    CHECK_THAT(message(display), Contains("panel 1, offset_mm: found 2; allowed with sweep_deg = 180: 0"));
+    CHECK_THAT(message(display), Contains("panel 0, offset_mm: found 2; allowed with sweep_deg = 180: 0"));
     display.panels[0].offset_mm = 0;
     check_fine(display);
     const auto refused = [&](double Panel::*field) {
@@ -227,9 +313,9 @@ TEST_CASE("half a turn needs a panel that comes to stand where it was") {
         moved.panels[0].*field = 0.5;
         return message(moved);
     };
-    CHECK_THAT(refused(&Panel::shift_mm), Contains("panel 1, shift_mm: found 0.5; allowed with sweep_deg = 180: 0"));
-    CHECK_THAT(refused(&Panel::skew_mm), Contains("panel 1, skew_mm"));
-    CHECK_THAT(refused(&Panel::tilt_deg), Contains("panel 1, tilt_deg"));
+    CHECK_THAT(refused(&Panel::shift_mm), Contains("panel 0, shift_mm: found 0.5; allowed with sweep_deg = 180: 0"));
+    CHECK_THAT(refused(&Panel::skew_mm), Contains("panel 0, skew_mm"));
+    CHECK_THAT(refused(&Panel::tilt_deg), Contains("panel 0, tilt_deg"));
     display.panels[0].lift_mm = 3;
     display.panels[0].angle_deg = 30;
     check_fine(display);
@@ -305,6 +391,7 @@ TEST_CASE("the line of a point that is there twice is its own") {
 
 TEST_CASE("the speeds of stall and overspeed are below and above the display's") {
     auto display = rotor();
+    display.sync.index = IndexSource::Pulses;
     display.sync.slowest_cycles_per_second = 59.9;
     display.sync.fastest_cycles_per_second = 60.1;
     check_fine(display);
@@ -313,6 +400,15 @@ TEST_CASE("the speeds of stall and overspeed are below and above the display's")
     display.sync.slowest_cycles_per_second = 0;
     display.sync.fastest_cycles_per_second = 59;
     CHECK_THAT(message(display), Contains("sync.fastest_cycles_per_second: found 59; allowed: more than"));
+}
+
+TEST_CASE("speeds of stall and overspeed need an index") {
+    auto display = rotor();
+    display.sync.slowest_cycles_per_second = 59.9;
+    CHECK_THAT(message(display), Contains("sync.slowest_cycles_per_second: found 59.9, but index = \"none\""));
+    display.sync = {};
+    display.sync.fastest_cycles_per_second = 60.1;
+    CHECK_THAT(message(display), Contains("sync.fastest_cycles_per_second: found 60.1, but index = \"none\""));
 }
 
 TEST_CASE("pulses need a source") {
@@ -343,12 +439,32 @@ TEST_CASE("a rotor whose panels lean counts a pixel as a column of samples") {
     check_fine(display);
 }
 
+TEST_CASE("turns and pulses that the device cannot count are refused") {
+    DisplayDescription display = stack();
+    display.kind = DisplayKind::RotatingPanel;
+    display.sweep_deg = 180;
+    display.sync.index = IndexSource::Pulses;
+    display.cycles_per_second = 2e-3;
+    CHECK(validate_display(display).has_value());
+    display.cycles_per_second = 1.5e-3;
+    CHECK_THAT(validate_display(display).error().message, Contains("cycles_per_second") && Contains("2000 s"));
+    display.sync.index = IndexSource::None;
+    CHECK(validate_display(display).has_value());
+    display.sync.index = IndexSource::Encoder;
+    display.cycles_per_second = 30;
+    display.sync.index_pulses = 65536;
+    CHECK(validate_display(display).has_value());
+    display.cycles_per_second = 1900;
+    CHECK_THAT(validate_display(display).error().message, Contains("sync.index_pulses") && Contains("16 ns"));
+}
+
 TEST_CASE("several contradictions are all found") {
     const auto mistakes = find_mistakes(
         "name = \"x\"\nkind = \"swept-plane\"\nformat = \"mono1\"\ncycles_per_second = 1\nslices = 3\n[motion]\n"
         "stroke_mm = 3\nprofile = \"table\"\ntable = [0,\n0.5,\n0.4, 1]\n[[panel]]\ncolumns = 3\nrows = 1\n"
         "column_pitch_mm = 1\nrow_pitch_mm = 1\n[scan]\nbit_planes = 2\nstrings = 2\n[sync]\nindex_pulses = 3\n");
     REQUIRE(mistakes.size() == 4);
+    CHECK(std::ranges::all_of(mistakes, &DisplayMistake::contradiction));
     CHECK(mistakes[0].line == 11);
     CHECK_THAT(mistakes[0].message, Contains("motion.table: found 0.4 after 0.5"));
     CHECK(mistakes[1].line == 18);

@@ -49,7 +49,7 @@ TEST_CASE("what a description is driven with survives C++") {
     CHECK(kreisel.scan.driver == DriverChip::Hub75);
     CHECK(kreisel.scan.pixel_clock_hz == 20000000);
     CHECK(kreisel.scan.latch_ns == 11);
-    CHECK(kreisel.scan.min_on_ns == 12);
+    CHECK(kreisel.scan.min_on_ns == 112);
     CHECK(kreisel.scan.rise_ns == 13);
     CHECK(kreisel.scan.fall_ns == 14);
     CHECK(kreisel.scan.row_groups == 4);

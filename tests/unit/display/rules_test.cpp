@@ -68,25 +68,27 @@ TEST_CASE("each field of a description is checked") {
     CHECK_THAT(message(display), Contains("cycles_per_second: found nan"));
     display = stack();
     display.panels[0].offset_mm = 2;
-    CHECK_THAT(message(display), Contains("panel 1, offset_mm: found 2; allowed: 0"));
+    CHECK_THAT(message(display), Contains("panel 0, offset_mm: found 2; allowed: 0"));
 
     display = rotor();
     display.panel_count = 9;
     CHECK_THAT(message(display), Contains("panel: found 9 panels"));
+    display.panel_count = 4'000'000'000;
+    CHECK_THAT(message(display), Contains("panel: found 4000000000 panels"));
     display.panel_count = 0;
     CHECK_THAT(message(display), Contains("panel: found 0 panels"));
     display = rotor();
     display.panels[1].columns = 5000;
-    CHECK_THAT(message(display), Contains("panel 2, columns: found 5000"));
+    CHECK_THAT(message(display), Contains("panel 1, columns: found 5000"));
     display = rotor();
     display.panels[1].turned = 4;
-    CHECK_THAT(message(display), Contains("panel 2, turned: found 4; allowed: a whole number from 0 to 3"));
+    CHECK_THAT(message(display), Contains("panel 1, turned: found 4; allowed: a whole number from 0 to 3"));
     display = rotor();
     display.panels[0].tilt_deg = 90;
-    CHECK_THAT(message(display), Contains("panel 1, tilt_deg: found 90"));
+    CHECK_THAT(message(display), Contains("panel 0, tilt_deg: found 90"));
     display = rotor();
     display.panels[0].chain_position = 8;
-    CHECK_THAT(message(display), Contains("panel 1, chain_position: found 8"));
+    CHECK_THAT(message(display), Contains("panel 0, chain_position: found 8"));
     display = rotor();
     display.sweep_deg = 90;
     CHECK_THAT(message(display), Contains("sweep_deg: found 90; allowed: 360 or 180"));
@@ -119,6 +121,15 @@ TEST_CASE("each field of how a display is driven is checked") {
     CHECK_THAT(refused([](D& d) { d.power.led_ma = -1; }), Contains("power.led_ma: found -1"));
     CHECK_THAT(refused([](D& d) { d.power.max_duty = 0; }), Contains("power.max_duty: found 0"));
     CHECK_THAT(refused([](D& d) { d.power.limit_ma = std::nan(""); }), Contains("power.limit_ma: found nan"));
+    // What the device would take for 0 microamperes, and with that for unknown; and what it has no room for.
+    CHECK_THAT(refused([](D& d) { d.power.led_ma = 4e-4; }), Contains("power.led_ma: found 0.0004; allowed: a number"
+                                                                      " from 0.001 to 10000, or 0"));
+    CHECK_THAT(refused([](D& d) { d.power.led_ma = 1e6; }), Contains("power.led_ma: found 1000000"));
+    CHECK_THAT(refused([](D& d) {
+                   d.power.led_ma = 1;
+                   d.power.limit_ma = 4e-4;
+               }),
+               Contains("power.limit_ma: found 0.0004"));
 }
 
 TEST_CASE("what belongs to another kind of display is refused") {
@@ -133,8 +144,8 @@ TEST_CASE("what belongs to another kind of display is refused") {
     CHECK_THAT(refused([](D& d) { d.motion.stroke_mm = 5; }), Contains("motion.stroke_mm: found 5; allowed: 0"));
     CHECK_THAT(refused([](D& d) { d.motion.both_ways = true; }), Contains("motion.both_ways"));
     CHECK_THAT(refused([](D& d) { d.motion.profile = MotionProfile::Sine; }), Contains("motion.profile"));
-    CHECK_THAT(refused([](D& d) { d.panels[0].turned = 1; }), Contains("panel 1, turned: found 1; allowed: 0"));
-    CHECK_THAT(refused([](D& d) { d.panels[0].mirrored = true; }), Contains("panel 1, mirrored: found true"));
+    CHECK_THAT(refused([](D& d) { d.panels[0].turned = 1; }), Contains("panel 0, turned: found 1; allowed: 0"));
+    CHECK_THAT(refused([](D& d) { d.panels[0].mirrored = true; }), Contains("panel 0, mirrored: found true"));
     static constexpr PointMm place[1] = {};
     CHECK_THAT(refused([](D& d) { d.points = place; }), Contains("points: does not apply to stacked-planes"));
     static constexpr double height[1] = {};

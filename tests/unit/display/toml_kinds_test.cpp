@@ -1,6 +1,8 @@
 // Display files: the kinds and tables beyond a plain stack or rotor, what is assumed, and all mistakes at once.
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "driver/display/toml.h"
 #include "tests/catch.h"
@@ -166,23 +168,24 @@ fastest_cycles_per_second = 30
 driver = "74hc595"
 pixel_clock_hz = 8_000_000
 latch_ns = 1
-min_on_ns = 2
+min_on_ns = 7
 rise_ns = 3
 fall_ns = 4
-row_groups = 2
+row_groups = 3
 bit_planes = 1
 bit_order = "lsb-first"
 register_order = "layers-first"
 color_order = "bgr"
 )";
-    const Scan shifted = parsed(kUneven + scan).scan;
+    const std::string colored = with(kUneven, "mono1", "rgb111");
+    const Scan shifted = parsed(colored + scan).scan;
     CHECK(shifted.driver == DriverChip::ShiftRegister595);
     CHECK(shifted.pixel_clock_hz == 8000000);
     CHECK(shifted.latch_ns == 1);
-    CHECK(shifted.min_on_ns == 2);
+    CHECK(shifted.min_on_ns == 7);
     CHECK(shifted.rise_ns == 3);
     CHECK(shifted.fall_ns == 4);
-    CHECK(shifted.row_groups == 2);
+    CHECK(shifted.row_groups == 3);
     CHECK(shifted.bit_planes == 1);
     CHECK_FALSE(shifted.msb_first);
     CHECK(shifted.layers_first);
@@ -190,14 +193,15 @@ color_order = "bgr"
     for (const auto& [name, chip] :
          {std::pair{"ws2812", DriverChip::Ws2812}, std::pair{"apa102", DriverChip::Apa102}}) {
         const Scan strings =
-            parsed(kUneven + "[scan]\ndriver = \"" + name + "\"\nstrings = 3\nserpentine = true\n").scan;
+            parsed(colored + "[scan]\ndriver = \"" + name + "\"\nstrings = 3\nserpentine = true\n").scan;
         CHECK(strings.driver == chip);
         CHECK(strings.strings == 3);
         CHECK(strings.serpentine);
         CHECK(strings.msb_first);
     }
     CHECK(parsed(kSwept + "[scan]\ndriver = \"dlp\"\nplanes_per_frame = 24\n").scan.planes_per_frame == 24);
-    CHECK(parsed(kSwept + "[scan]\ndriver = \"hub75\"\n").scan.driver == DriverChip::Hub75);
+    CHECK(parsed(with(kSwept, "rows = 3", "rows = 2") + "[scan]\ndriver = \"hub75\"\n").scan.driver ==
+          DriverChip::Hub75);
     CHECK(parsed(kSwept + "[scan]\ndriver = \"direct\"\n").scan.driver == DriverChip::Direct);
 
     const Power power = parsed(kUneven + "[power]\nled_ma = 20\nmax_duty = 0.125\nlimit_ma = 1e4\n").power;
@@ -240,7 +244,7 @@ TEST_CASE("each kind needs its own keys and refuses those of others") {
     CHECK_THAT(message("sweep_deg = 180\n" + kHelix), Contains("sweep_deg: does not apply"));
     CHECK_THAT(message("points = [[0, 0, 0]]\n" + kHelix), Contains("points: does not apply"));
     CHECK_THAT(message("plane_heights_mm = [1]\n" + kRotor), Contains("plane_heights_mm: does not apply"));
-    CHECK_THAT(message(kUneven + "tilt_deg = 0\n"), Contains("panel 1: tilt_deg: does not apply"));
+    CHECK_THAT(message(kUneven + "tilt_deg = 0\n"), Contains("panel 0: tilt_deg: does not apply"));
     CHECK_THAT(message("plane_pitch_mm = 1\n" + kUneven), Contains("plane_heights_mm: found beside plane_pitch_mm"));
     CHECK_THAT(message(with(kUneven, "plane_heights_mm = [-10, 0, 12.5]\n", "")),
                Contains("the required key \"plane_pitch_mm\" is missing"));
@@ -292,15 +296,53 @@ TEST_CASE("all mistakes of a file are found, by line") {
     CHECK(mistakes[2].line == 9);
     CHECK_THAT(mistakes[2].message, Contains("motion.profile: found 7"));
     CHECK(mistakes[3].line == 14);  // That rows is missing goes without saying.
-    CHECK_THAT(mistakes[3].message, Contains("panel 1: unknown key \"rowz\""));
+    CHECK_THAT(mistakes[3].message, Contains("panel 0: unknown key \"rowz\""));
 
     const auto numbers = find_mistakes(with(with(kSwept, "80", "0"), "1.5", "-1.5"));
     REQUIRE(numbers.size() == 2);
     CHECK_THAT(numbers[0].message, Contains("motion.stroke_mm: found 0"));
-    CHECK_THAT(numbers[1].message, Contains("panel 1: column_pitch_mm: found -1.5"));
+    CHECK_THAT(numbers[1].message, Contains("panel 0: column_pitch_mm: found -1.5"));
 
+    CHECK(std::ranges::none_of(mistakes, &DisplayMistake::contradiction));
     CHECK(find_mistakes(kSwept).empty());
     CHECK(find_mistakes("name = ").size() == 1);
+}
+
+TEST_CASE("values of another type and values out of range are found together, each once") {
+    std::string text = with(with(with(kSwept, "15", "\"x\""), "80", "-1"), "dead_zone = 0.1", "dead_zone = 0.5");
+    text = with(with(text, "column_pitch_mm = 1.5", "column_pitch_mm = []"), "row_pitch_mm = 2.5", "row_pitch_mm = 0");
+    const auto mistakes = find_mistakes(text + "[power]\nmax_duty = 2\nled_ma = true\n[scan]\nstrings = 0\n");
+    const std::vector<std::string> wanted{"cycles_per_second: found the text", "motion.stroke_mm: found -1",
+                                          "motion.dead_zone: found 0.5",       "panel 0: column_pitch_mm: found a list",
+                                          "panel 0: row_pitch_mm: found 0",    "power.max_duty: found 2",
+                                          "power.led_ma: found true",          "scan.strings: found 0"};
+    REQUIRE(mistakes.size() == wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) CHECK_THAT(mistakes[i].message, Catch::StartsWith(wanted[i]));
+}
+
+TEST_CASE("what does not apply, is missing or is unknown is not found out of range as well") {
+    const auto messages = [](const std::string& toml) {
+        std::string all;
+        for (const DisplayMistake& mistake : find_mistakes(toml)) all += mistake.message + "\n";
+        return all;
+    };
+    CHECK(messages("plane_heights_mm = [1]\n" + kRotor) ==
+          "plane_heights_mm: does not apply to kind \"rotating-panel\", only to \"stacked-planes\"; remove it\n");
+    CHECK_THAT(messages(with(kSwept, "stroke_mm = 80", "strok_mm = 80")),
+               Contains("unknown key \"motion.strok_mm\"") && !Contains("motion.stroke_mm: found"));
+    CHECK(messages("motion = 3\n" + kHead + "kind = \"helix\"\nslices = 3\n" + kPanel) ==
+          "motion: found 3; allowed: a [motion] table\n");
+    CHECK(messages("plane_pitch_mm = 3\n" + kUneven) ==
+          "plane_heights_mm: found beside plane_pitch_mm; allowed: one of the two\n");
+    CHECK(messages(with(kSwept, "rows = 3\n", "")) == "panel 0: the required key \"rows\" is missing\n");
+}
+
+TEST_CASE("without a kind that is known, values of another type are found all the same") {
+    const auto mistakes = find_mistakes(with(with(with(kSwept, "swept-plane", "swept"), "15", "[]"), "\"sine\"", "1"));
+    REQUIRE(mistakes.size() == 3);
+    CHECK_THAT(mistakes[0].message, Contains("cycles_per_second: found a list"));
+    CHECK_THAT(mistakes[1].message, Contains("kind: found the text \"swept\""));
+    CHECK_THAT(mistakes[2].message, Contains("motion.profile: found 1"));
 }
 
 TEST_CASE("the text of a preset is found by its name") {

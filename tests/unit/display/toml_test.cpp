@@ -134,7 +134,7 @@ TEST_CASE("an unknown key is refused with its line and the nearest known key") {
     CHECK_THAT(message(with(kStack, "slices", "slicse")),
                Contains("x.toml: line 4: unknown key \"slicse\"") && Contains("\"slices\""));
     CHECK_THAT(message(with(kStack, "rows = ", "row = ")),
-               Contains("x.toml: line 10: panel 1: unknown key \"row\"") && Contains("nearest one is \"rows\""));
+               Contains("x.toml: line 10: panel 0: unknown key \"row\"") && Contains("nearest one is \"rows\""));
     CHECK_THAT(message(with(kStack, "kind", "knd")), Contains("nearest one is \"kind\""));
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("a missing key is named") {
     CHECK_THAT(message(with(kStack, "plane_pitch_mm = 3\n", "")), Contains("required key \"plane_pitch_mm\""));
     CHECK_THAT(message(with(kRotor, "slices = 90\n", "")), Contains("required key \"slices\""));
     CHECK_THAT(message(with(kStack, "columns = 10\n", "")),
-               Contains("x.toml: line 8: panel 1: the required key \"columns\""));
+               Contains("x.toml: line 8: panel 0: the required key \"columns\""));
     CHECK_THAT(message(kStack.substr(0, kStack.find("[[panel]]"))),
                Contains("required key \"panel\"") && Contains("[[panel]]"));
 }
@@ -155,7 +155,7 @@ TEST_CASE("a key that does not apply to the kind is refused") {
     CHECK_THAT(message(with(kStack, "slices = 12", "slices = 12\nclockwise = false")),
                Contains("clockwise: does not apply"));
     for (const char* key : {"shift_mm", "offset_mm", "lift_mm", "angle_deg"}) {
-        CHECK_THAT(message(kStack + key + " = 0\n"), Contains(std::string("panel 1: ") + key + ": does not apply"));
+        CHECK_THAT(message(kStack + key + " = 0\n"), Contains(std::string("panel 0: ") + key + ": does not apply"));
     }
 }
 
@@ -194,17 +194,17 @@ TEST_CASE("numbers out of range are refused with the range") {
     CHECK_THAT(message(with(kStack, "slices = 12", "slices = -3")), Contains("found -3"));
     CHECK_THAT(message(with(kStack, "slices = 12", "slices = 4294967297")), Contains("slices: found 4294967297"));
     CHECK_THAT(message(with(kStack, "columns = 10", "columns = 65546")),
-               Contains("x.toml: line 9: panel 1: columns: found 65546"));
-    CHECK_THAT(message(with(kStack, "rows = 8", "rows = 0")), Contains("panel 1: rows: found 0"));
+               Contains("x.toml: line 9: panel 0: columns: found 65546"));
+    CHECK_THAT(message(with(kStack, "rows = 8", "rows = 0")), Contains("panel 0: rows: found 0"));
     CHECK_THAT(message(with(kStack, "50.5", "nan")), Contains("cycles_per_second: found nan"));
     CHECK_THAT(message(with(kStack, "50.5", "inf")), Contains("cycles_per_second: found inf"));
     CHECK_THAT(message(with(kStack, "50.5", "0")), Contains("cycles_per_second: found 0"));
     CHECK_THAT(message(with(kStack, "plane_pitch_mm = 3", "plane_pitch_mm = 0.0")),
                Contains("x.toml: line 5: plane_pitch_mm: found 0"));
     CHECK_THAT(message(with(kStack, "= 1.5", "= -1.5")), Contains("column_pitch_mm: found -1.5"));
-    CHECK_THAT(message(with(kStack, "= 2.5", "= nan")), Contains("x.toml: line 12: panel 1: row_pitch_mm: found nan"));
-    CHECK_THAT(message(with(kRotor, "= 180", "= inf")), Contains("x.toml: line 24: panel 2: angle_deg: found inf"));
-    CHECK_THAT(message(with(kRotor, "shift_mm = 0.75", "shift_mm = 1e9")), Contains("panel 1: shift_mm: found 1"));
+    CHECK_THAT(message(with(kStack, "= 2.5", "= nan")), Contains("x.toml: line 12: panel 0: row_pitch_mm: found nan"));
+    CHECK_THAT(message(with(kRotor, "= 180", "= inf")), Contains("x.toml: line 24: panel 1: angle_deg: found inf"));
+    CHECK_THAT(message(with(kRotor, "shift_mm = 0.75", "shift_mm = 1e9")), Contains("panel 0: shift_mm: found 1"));
 }
 
 TEST_CASE("frames and lattices that are too large are refused") {

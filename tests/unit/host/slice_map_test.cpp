@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <random>
 #include <set>
@@ -239,6 +240,32 @@ TEST_CASE("coverage counts what a walk over all samples counts") {
             CHECK(found.most_visits == expected.most_visits);
         }
     }
+}
+
+TEST_CASE("a helix whose Cartesian volume would be too large has one with fewer voxels, and stays within it") {
+    DisplayDescription display = test::flat_display("tall-helix", DisplayKind::Helix, 4096);
+    display.panels[0] = {.columns = 520, .rows = 520};
+    display.motion.stroke_mm = 100.0;
+    const DisplayLattice lattice(display);
+    const SliceMap map(display, lattice);
+    REQUIRE(map.grid().nz < display.slices);
+    REQUIRE(map.grid().sample_count() <= std::size_t{1} << 30);
+    for (std::uint32_t k = 0; k < display.slices; ++k) {
+        for (const std::uint32_t x : {0u, 259u, 519u}) REQUIRE(map.voxel(x, x, k) < map.grid().sample_count());
+    }
+    CHECK(map.voxel(3, 3, 4095) / map.grid().column_count() == map.grid().nz - 1);
+}
+
+TEST_CASE("two points far apart are counted without a table of the space between them") {
+    static constexpr std::array<PointMm, 2> kFar{{{0, 0, 0}, {1000, 1000, 1000}}};
+    DisplayDescription display = test::flat_display("far", DisplayKind::FreePoints, 1);
+    display.panels[0] = {.columns = 2, .rows = 1, .column_pitch_mm = 0.5, .row_pitch_mm = 0.5};
+    display.points = kFar;
+    const DisplayLattice lattice(display);
+    const SliceCoverage coverage = SliceMap(display, lattice).coverage(LightMode::Uniform);
+    CHECK(coverage.voxels > 900'000'000);
+    CHECK(coverage.covered == 2);
+    CHECK(coverage.visits == 2);
 }
 
 TEST_CASE("a slice map refuses volumes of another shape") {

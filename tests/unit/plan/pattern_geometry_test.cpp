@@ -2,6 +2,7 @@
 // and what moves when it is not.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -67,6 +68,16 @@ TEST_CASE("a display whose first panel has no right side draws the index with on
     CHECK(direction_deg(display, pixels, kWhite) == Approx(0.0).margin(0.01));
 }
 
+TEST_CASE("a single column of LEDs that turns has an index, on the axis and off it", "[pattern]") {
+    for (const double offset_mm : {0.0, 7.0, -7.0}) {
+        DisplayDescription display = rotor(PixelFormat::Mono1);
+        display.panel_count = 1;
+        display.panels[0] = {.columns = 1, .rows = 16, .offset_mm = offset_mm};
+        std::vector<std::byte> frame(frame_bytes(display));
+        CHECK(paint_pattern(display, Pattern::Index, 0, frame).pixels > 0);
+    }
+}
+
 TEST_CASE("a display that shows half turns has its index in both of them", "[pattern]") {
     DisplayDescription display = rotor(PixelFormat::Rgb111, false, 180.0);
     const std::vector<LitPixel> pixels = lit(display, Pattern::Index);
@@ -123,6 +134,70 @@ TEST_CASE("each band of the axis wall is lit by one side of one panel, all round
     for (const std::size_t row : {std::size_t{0}, std::size_t{11}}) CHECK(writers[row].size() == 4);
 }
 
+TEST_CASE("the bands of the axis wall stand where axis_bands says, interleaved, skewed, tilted or turned",
+          "[pattern]") {
+    DisplayDescription interleaved = rotor(PixelFormat::Rgb111);
+    interleaved.panels[1].shift_mm = 1.0;
+    interleaved.panels[1].lift_mm = 1.0;
+    DisplayDescription skewed = interleaved;
+    skewed.panels[0].skew_mm = 0.7;
+    skewed.panels[1].mirrored = true;
+    skewed.panels[1].skew_mm = -0.4;
+    for (const DisplayDescription& display :
+         {rotor(PixelFormat::Rgb111), rotor(PixelFormat::Rgb111, false, 180.0), side_by_side(PixelFormat::Rgb111),
+          tilted_rotor(PixelFormat::Rgb111), interleaved, skewed}) {
+        const std::vector<AxisBand> bands = axis_bands(display);
+        const bool is_double = display.name.view() != "side by side";
+        REQUIRE(bands.size() == (is_double ? 4 : 2));
+        // Of each side, the light of rings and band: heights, and distances by height.
+        std::map<std::pair<std::uint32_t, bool>, std::map<double, double>> seen;
+        for (const LitPixel& pixel : lit(display, Pattern::Axis)) {
+            const glm::dvec3 place = rotor_place_mm(display, pixel);
+            if (radius_mm(place) < 5.0) continue;  // the post
+            const Panel& panel = display.panels[pixel.panel];
+            const bool right = panel.shift_mm + on_panel_mm(panel, pixel.row, pixel.column).x > 0.0;
+            seen[{pixel.panel, right}][place.z] = radius_mm(place);
+        }
+        CHECK(seen.size() == bands.size());
+        double before = -1e9;
+        for (const AxisBand& band : bands) {
+            CAPTURE(display.name.view(), band.panel, band.right_side);
+            const std::map<double, double>& light = seen[{band.panel, band.right_side}];
+            REQUIRE(light.size() >= 4);
+            CHECK(band.low_arc_mm == Approx(light.begin()->first));
+            CHECK(band.high_arc_mm == Approx(light.rbegin()->first));
+            double radius = 0.0;
+            double height = 0.0;
+            for (auto at = std::next(light.begin()); at != std::prev(light.end()); ++at) {
+                radius += at->second;
+                height += at->first;
+            }
+            const auto rows = static_cast<double>(light.size() - 2);
+            // The outermost band's middle row may be one of the ring: half a row away.
+            CHECK(radius / rows == Approx(band.radius_mm).margin(display.panels[1].tilt_deg == 0.0 ? 1e-9 : 0.2));
+            CHECK(height / rows > before);
+            before = height / rows;
+        }
+    }
+    const std::vector<AxisBand> apart = axis_bands(interleaved);
+    CHECK(std::abs(apart[2].radius_mm - apart[0].radius_mm) > 0.9);
+    CHECK(axis_bands(stack(PixelFormat::Rgb111)).empty());
+}
+
+TEST_CASE("each height of the axis post has the colour of one panel", "[pattern]") {
+    const DisplayDescription display = rotor(PixelFormat::Rgb111);
+    std::map<std::uint32_t, std::set<std::uint32_t>> panels_of_row;
+    std::set<std::uint32_t> panels;
+    for (const LitPixel& pixel : lit(display, Pattern::Axis)) {
+        if (pixel.column < 7 || pixel.column > 8) continue;
+        panels_of_row[pixel.row].insert(pixel.panel);
+        panels.insert(pixel.panel);
+    }
+    CHECK(panels_of_row.size() == 12);
+    for (const auto& [row, of_row] : panels_of_row) CHECK(of_row.size() == 1);
+    CHECK(panels.size() == 2);
+}
+
 TEST_CASE("the arcs of the axis ring fill the circle once, where the LEDs are", "[pattern]") {
     for (const bool clockwise : {false, true}) {
         DisplayDescription display = rotor(PixelFormat::Rgb111, clockwise);
@@ -159,6 +234,8 @@ TEST_CASE("a shift that the file has wrong makes steps of twice its size in the 
 
 TEST_CASE("index and axis outline the planes of displays that do not turn", "[pattern]") {
     const DisplayDescription display = stack(PixelFormat::Rgb111, 16, 12, 8);
+    CHECK(index_border_slice(display) == 2);
+    CHECK(index_border_slice(stack(PixelFormat::Rgb111, 16, 12, 2)) == 1);
     for (const LitPixel& pixel : lit(display, Pattern::Index)) {
         CHECK((pixel.slice == 0 || pixel.slice == 2));
         if (pixel.slice == 2) CHECK((pixel.column % 15 == 0 || pixel.row % 11 == 0));

@@ -1,6 +1,7 @@
 // Plan: numbers against those worked out by hand.
 #include "driver/host/plan.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/catch.h"
@@ -63,6 +64,9 @@ TEST_CASE("what fits a link raw, what with compression, and what not", "[plan]")
     // 737,280 bytes a frame for each bit of a pixel: 1, 2 and 3 bits a pixel are 14.7, 29.5 and 44.2 MB/s; 4 are 59.
     CHECK(fast.formats_raw == std::vector<PixelFormat>{PixelFormat::Mono1, PixelFormat::Mono2, PixelFormat::Rgb111});
 
+    CHECK(fast.slices_compressed == 360);  // There are no more.
+    CHECK(planned(stack(PixelFormat::Mono1), "tcp").link.slices_raw == 5);
+
     const LinkPlan slow = planned(display, "usb-fs").link;
     CHECK(slow.fit == Fit::Compressed);  // 1.2 MB/s are just enough
     const LinkPlan slower = planned(display, "hid-fs").link;
@@ -91,6 +95,22 @@ TEST_CASE("small frames are planned with their packet headers", "[plan]") {
     const LinkPlan faster = planned(display, "hid-fs", {{166, 166}, {166, 166}, 0.3, 8}).link;
     CHECK(faster.fit == Fit::No);
     CHECK(faster.slices_raw == 7);  // of 165.8 bytes, 102 are headers
+}
+
+TEST_CASE("a link that is too slow is planned with the formats and rates that it would carry", "[plan]") {
+    const DisplayDescription display = large_rotor();
+    const auto rates = compressed_rates(display, *find_link("hid-fs", std::nullopt), 1'000'000);
+    REQUIRE(rates.has_value());
+    REQUIRE(rates->size() == 5);
+    CHECK(rates->front().format == PixelFormat::Rgb332);
+    CHECK(rates->back().format == PixelFormat::Mono1);
+    const ExampleFrames example = *measure_example(display, 1'000'000);
+    CHECK(rates->front().frames_per_second ==
+          Approx(64e3 / std::max(example.constant.moving, example.gradient.moving)));
+    CHECK(rates->back().frames_per_second > rates->front().frames_per_second);
+    const auto fast = compressed_rates(display, *find_link("tcp", std::nullopt), 1'000'000);
+    REQUIRE(fast.has_value());
+    for (const FormatRate& rate : *fast) CHECK(rate.frames_per_second == 20.0);
 }
 
 TEST_CASE("scan-out is planned for panels, cubes, strings and projectors", "[plan]") {
@@ -208,8 +228,12 @@ TEST_CASE("links are found by name, and gpio by its rate", "[plan]") {
     CHECK_THAT(unknown, Catch::Contains("usb3"));
     for (const LinkCeiling& link : link_ceilings()) CHECK_THAT(unknown, Catch::Contains(std::string(link.name)));
     CHECK_THAT(refusal("gpio", std::nullopt), Catch::Contains("--gpio-rate"));
-    CHECK_THAT(refusal("gpio", 0.0), Catch::Contains("positive"));
-    CHECK_THAT(refusal("gpio", -5.0), Catch::Contains("positive"));
-    CHECK_THAT(refusal("gpio", std::nan("")), Catch::Contains("positive"));
+    CHECK_THAT(refusal("gpio", std::nullopt), Catch::Contains("8 lines"));
+    for (const double rate : {0.0, -5.0, 1e-9, 0.999, 1.001e10, 1e30, HUGE_VAL, std::nan("")}) {
+        CAPTURE(rate);
+        CHECK_THAT(refusal("gpio", rate), Catch::Contains("8 lines") && Catch::Contains("1 to 1e10"));
+    }
+    CHECK(find_link("gpio", 1.0)->bytes_per_second == 1.0);
+    CHECK(find_link("gpio", 1e10)->bytes_per_second == 1e10);
     CHECK_THAT(refusal("tcp", 1e6), Catch::Contains("--link gpio"));
 }

@@ -47,6 +47,15 @@ TEST_CASE("no answer ends in Failed, naming the link") {
     CHECK(rig.poll_after(kMs) == Status::Closed);
 }
 
+TEST_CASE("a program that was stopped while it connected asks again before it gives up") {
+    Rig rig;
+    (void)rig.poll();
+    CHECK(rig.device.receive().size() == 1);
+    (void)rig.poll_after(60'000 * kMs);
+    CHECK(rig.session.state() == SessionState::Connecting);
+    CHECK(rig.device.receive().size() == 1);
+}
+
 TEST_CASE("a peer that sends only garbage ends in Failed, and the message counts it") {
     Rig rig;
     Status status = rig.poll();

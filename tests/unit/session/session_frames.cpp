@@ -336,5 +336,22 @@ TEST_CASE("a peer that stops reading in the middle of a frame ends in Failed") {
     CHECK(rig.error_says("takes no more data"));
 }
 
+TEST_CASE("a program that was stopped in the middle of a frame does not blame the peer") {
+    transport::LoopbackOptions narrow;
+    narrow.max_packet_bytes = 300;
+    narrow.queue_bytes = 304;
+    SessionOptions options;
+    options.compress = false;
+    Rig rig(options, narrow);
+    rig.connect();
+    REQUIRE(rig.session.submit(make_frame(rig.display, 1)) == Status::Ok);
+    (void)rig.poll();
+    CHECK(rig.poll_after(60'000 * kMs) == Status::WouldBlock);
+    CHECK(rig.session.state() == SessionState::Ready);
+    CHECK_FALSE(rig.device.receive().empty());
+    (void)rig.poll_after(kMs);
+    CHECK(rig.session.state() != SessionState::Failed);
+}
+
 }  // namespace
 }  // namespace xorvox::host

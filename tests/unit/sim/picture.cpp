@@ -135,6 +135,35 @@ TEST_CASE("a label is written where it is asked for, and cut at the film's edge"
     CHECK_FALSE(at(0, 9));
 }
 
+TEST_CASE("a picture that frames the display shows where in it the light is, and where +x and the axis are") {
+    const DisplayDescription display = rotor_of(30, 30, 90, PixelFormat::Rgb111, 1);
+    std::vector<std::byte> page = dark_page(display);
+    set_pixel(display, page, {.slice = 0, .row = 0, .column = 29}, 1);  // On the right, on top.
+    const sim::LightField field = sim::expose(display, page, 255);
+    const std::uint32_t side = 240;
+    const auto share_of = [&](sim::Framing framing) {
+        return sim::render_orthographic(display, field, side, framing).covered;
+    };
+    CHECK(share_of(sim::Framing::Display) < 0.02 * share_of(sim::Framing::Object));
+    const sim::Image image = sim::render_orthographic(display, field, side, sim::Framing::Display).image;
+    const Patch light = patch_of(image, 0, 2, 0, side);
+    const glm::dvec2 seen = light.middle() / double{side};
+    CHECK(seen.x > 0.65);
+    CHECK(seen.y > 0.75);
+
+    // The axis, from top to bottom of the front view, is lighter than what is beside it.
+    const auto lightest = [&](std::uint32_t row) {
+        std::uint32_t best = 10;
+        const std::uint8_t* line = image.rgb.data() + 3 * std::size_t{row} * image.width;
+        for (std::uint32_t column = 10; column < side / 2 + 20; ++column) {
+            if (line[3 * column + 2] > line[3 * best + 2] + 10) best = column;
+        }
+        return best;
+    };
+    for (const std::uint32_t row : {60u, 120u, 180u, 220u}) CHECK(lightest(row) == Approx(lightest(120)).margin(1));
+    CHECK(lightest(120) > side / 3);
+}
+
 std::vector<DisplayDescription> displays_of_all_kinds() {
     std::vector<DisplayDescription> all{stack_of(5, 4, 3),
                                         rotor_of(8, 4, 90),
@@ -179,6 +208,24 @@ TEST_CASE("no voxel sticks out of the outline, and the outermost touch it") {
         glm::dvec3 widest(-1e9);
         for (const sim::Segment& segment : sim::outline(display)) widest = glm::max(widest, segment.from_mm);
         CHECK(glm::distance(widest, space.upper) < 1e-9);
+    }
+}
+
+TEST_CASE("marks point to +x from the outline outwards, and the axis sticks out of what turns") {
+    for (const DisplayDescription& display : displays_of_all_kinds()) {
+        INFO(display.name.view());
+        const DisplayExtent space = sim::drawn_extent(display);
+        glm::dvec3 lowest(1e9);
+        glm::dvec3 highest(-1e9);
+        for (const sim::Segment& mark : sim::marks(display)) {
+            lowest = glm::min(lowest, glm::min(mark.from_mm, mark.to_mm));
+            highest = glm::max(highest, glm::max(mark.from_mm, mark.to_mm));
+        }
+        CHECK(highest.x > space.upper.x + 0.05 * (space.upper.x - space.lower.x));
+        CHECK(lowest.x > space.lower.x);
+        CHECK(highest.y < space.upper.y);
+        const bool turns = display.kind == DisplayKind::RotatingPanel || display.kind == DisplayKind::Helix;
+        CHECK((highest.z > space.upper.z) == turns);
     }
 }
 
@@ -301,6 +348,20 @@ TEST_CASE("endless light is not clipped, and a dim object keeps its colour") {
     const sim::Image dim = sim::develop(film, 0.3f);
     CHECK(dim.rgb[0] > 70);
     CHECK(dim.rgb[1] <= 1);
+}
+
+TEST_CASE("a pixel that is no number is dark and harms no other") {
+    sim::Film film{40, 30, std::vector<glm::vec4>(1200, glm::vec4(0.4f, 0.4f, 0.4f, 1.0f))};
+    const std::vector<std::uint8_t> whole = sim::develop(film, 0.3f).rgb;
+    const float broken = GENERATE(std::nanf(""), HUGE_VALF, -HUGE_VALF);
+    film.pixels[5 * 40 + 7] = glm::vec4(broken);
+    film.pixels[6 * 40 + 9].w = broken;
+    const std::vector<std::uint8_t> rgb = sim::develop(film, 0.3f).rgb;
+    CHECK(rgb[3 * (5 * 40 + 7)] + 40 < whole[3 * (5 * 40 + 7)]);
+    for (std::size_t i = 0; i < rgb.size(); ++i) {
+        if (i / 3 == 5 * 40 + 7 || i / 3 == 6 * 40 + 9) continue;
+        REQUIRE(std::abs(rgb[i] - whole[i]) < 20);
+    }
 }
 
 TEST_CASE("strong light keeps its hue, and white is white") {

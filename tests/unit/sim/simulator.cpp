@@ -2,8 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "driver/display/toml.h"
 #include "driver/wire/messages.h"
@@ -27,6 +30,7 @@ struct Bench {
 
     static sim::Simulator make(const DisplayDescription& display, Link link) {
         auto made = sim::Simulator::make(display, link);
+        INFO((made ? "" : made.error().message));
         REQUIRE(made.has_value());
         return std::move(*made);
     }
@@ -131,6 +135,92 @@ TEST_CASE("a misbuilt simulator shows the same frame elsewhere") {
     (void)mirrored->poll(kCycle_ns);
     REQUIRE(mirrored->light().flashes.size() == 1);
     CHECK(mirrored->light().flashes[0].place_mm.x == 4.0);
+}
+
+/// What is seen of a frame for `display` whose pixel `column` of the first row is lit, if the display is built
+/// otherwise.
+sim::LightField seen_as_built(const DisplayDescription& display, const DisplayDescription& built,
+                              std::uint32_t column) {
+    Bench bench{.display = display};
+    sim::SimulatorOptions options;
+    options.built = built;
+    auto simulator = sim::Simulator::make(display, bench.ends.second.get(), options);
+    REQUIRE(simulator.has_value());
+    CHECK(geometry_digest(simulator->display()) == geometry_digest(display));
+    bench.send(wire::HelloRequest{});
+    bench.send_frame(1, bench.page_with(column));
+    (void)simulator->poll(1);
+    (void)simulator->poll(simulator->next_boundary_ns());
+    return simulator->light();
+}
+
+TEST_CASE("light is where the display as it is built has its pixels") {
+    const DisplayDescription stack = stack_of(5, 4, 3, PixelFormat::Rgb888);
+    DisplayDescription wider = stack;
+    wider.panels[0].column_pitch_mm = 5.0;
+    sim::LightField field = seen_as_built(stack, wider, 0);
+    REQUIRE(field.flashes.size() == 1);
+    CHECK(field.flashes[0].place_mm == glm::dvec3(-10.0, -4.5, -7.0));
+
+    const DisplayDescription rotor = rotor_of(8, 4, 12, PixelFormat::Rgb888);
+    DisplayDescription mounted = rotor;
+    mounted.panels[0].mirrored = true;
+    mounted.panels[0].lift_mm = 2.5;
+    const glm::dvec3 mirrored = seen_as_built(rotor, rotor, 7).flashes.at(0).place_mm;
+    field = seen_as_built(rotor, mounted, 0);
+    REQUIRE(field.flashes.size() == 1);
+    CHECK(glm::distance(field.flashes[0].place_mm, mirrored + glm::dvec3(0.0, 0.0, 2.5)) < 1e-9);
+}
+
+TEST_CASE("where the index mark comes at another phase, light is turned by the difference, whichever way it goes") {
+    const bool clockwise = GENERATE(false, true);
+    DisplayDescription rotor = rotor_of(8, 4, 12, PixelFormat::Rgb888);
+    rotor.clockwise = clockwise;
+    rotor.sync.index = IndexSource::Pulses;
+    rotor.sync.index_phase = 0.9;
+    DisplayDescription marked = rotor;
+    marked.sync.index_phase = 0.15;  // A quarter of a turn further.
+    const glm::dvec3 right = seen_as_built(rotor, rotor, 7).flashes.at(0).place_mm;
+    const glm::dvec3 turned = seen_as_built(rotor, marked, 7).flashes.at(0).place_mm;
+    const double sign = clockwise ? -1.0 : 1.0;
+    CHECK(glm::distance(turned, glm::dvec3(-sign * right.y, sign * right.x, right.z)) < 1e-9);
+}
+
+TEST_CASE("a plane that is lit both ways shows a slice at two heights where its index mark is off") {
+    DisplayDescription plane = swept_of(5, 4, 10, MotionProfile::Constant, PixelFormat::Rgb888);
+    plane.plane_pitch_mm = 1.0;
+    plane.motion.both_ways = true;
+    plane.motion.dead_zone = 0.25;  // The ten slices take a quarter of a cycle each way.
+    plane.sync.index = IndexSource::Pulses;
+    DisplayDescription marked = plane;
+    marked.sync.index_phase = 0.05;
+    marked.motion.dead_zone = 0.0;  // Which is for the device to keep.
+    const glm::dvec3 right = seen_as_built(plane, plane, 2).flashes.at(0).place_mm;
+    const sim::LightField field = seen_as_built(plane, marked, 2);
+    REQUIRE(field.flashes.size() == 2);
+    CHECK(glm::distance(field.flashes[0].place_mm, right + glm::dvec3(0.0, 0.0, 6.0)) < 1e-9);
+    CHECK(glm::distance(field.flashes[1].place_mm, right - glm::dvec3(0.0, 0.0, 6.0)) < 1e-9);
+}
+
+TEST_CASE("a display cannot be built so that its frames have another layout") {
+    const DisplayDescription rotor = rotor_of(8, 4, 12);
+    const auto refused = [&](DisplayDescription built, const std::string& why) {
+        sim::SimulatorOptions options;
+        options.built = built;
+        const auto made = sim::Simulator::make(rotor, Link{}, options);
+        REQUIRE_FALSE(made.has_value());
+        CHECK_THAT(made.error().message, Catch::Contains(why));
+    };
+    refused(stack_of(8, 4, 12), "rotor cannot really be built like stack: another kind of display");
+    refused(rotor_of(8, 4, 12, PixelFormat::Rgb332), "format rgb332 instead of mono1");
+    refused(rotor_of(8, 4, 13), "slices 13 instead of 12");
+    refused(rotor_of(8, 4, 12, PixelFormat::Mono1, 1), "panels 1 instead of 2");
+    refused(rotor_of(9, 4, 12), "panel 0: columns 9 instead of 8");
+    DisplayDescription last = rotor;
+    last.panels[1].rows = 5;
+    refused(last, "panel 1: rows 5 instead of 4");
+    last.panels[1].rows = 0;
+    refused(last, "rows");
 }
 
 TEST_CASE("a simulator whose client does not read waits for room and not for packets") {
