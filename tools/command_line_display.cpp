@@ -63,8 +63,9 @@ Command show_command(CLI::App& program, ShowOptions& options) {
     add_display(app, options.display);
     app.add_option(
            "--color", options.color,
-           "constant:NAME, constant:#rrggbb, gradient (the default), gradient:NAME,NAME from bottom to top, noise "
-           "or noise:SCALE; NAME is a colour as in CSS, and a wrong one lists them all")
+           "constant:NAME, constant:#rrggbb, gradient (the default), gradient:NAME,NAME from bottom to top, noise, "
+           "noise:SCALE or a formula, 'expr: hsv(noise(8*p), 1, z)'; NAME is a colour as in CSS, and a wrong one lists "
+           "them all")
         ->type_name("KIND:ARGS");
     app.add_option(
            "--light", options.light,

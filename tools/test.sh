@@ -59,7 +59,7 @@ count_tests() {
 }
 
 # What runs in several threads.
-threaded='^(contract.transport|unit.session|cli.program)|^unit.device:.*(ring|interrupts)|^unit.voxelizer:.*(threads|region|slabs|batches|stopped|same time|moves|rounds)'
+threaded='^(contract.transport|unit.session|cli.program)|^unit.device:.*(ring|interrupts)|^unit.host:.*(framebuffer|page exchange)|^unit.voxelizer:.*(threads|region|slabs|batches|stopped|same time|moves|rounds)'
 
 need $packages_build $packages_test
 export XORVOX_REQUIRE=${XORVOX_REQUIRE:-}
@@ -79,7 +79,7 @@ else
     count_tests '.*'
     stage "build asan" build asan all
     stage "asan" ctest_in asan -LE '^(gl|house|embedded)$'
-    stage "build tsan" build tsan contract_transport unit_session unit_voxelizer cli_program
+    stage "build tsan" build tsan contract_transport unit_session unit_device unit_host unit_voxelizer cli_program
     stage "tsan" ctest_in tsan -R "$threaded"
     stage "build with clang, fuzzers" build fuzz fuzzers xorvox
     stage "fuzz, 60 s over all targets" tools/fuzz.sh 60

@@ -10,7 +10,8 @@
 #include <fmt/format.h>
 
 #include "driver/host/color_space.h"
-#include "driver/host/noise.h"
+#include "voxelizer/expression.h"
+#include "voxelizer/noise.h"
 
 namespace xorvox::host {
 namespace {
@@ -69,6 +70,17 @@ public:
 private:
     float scale_;
     Ramp ramp_;
+};
+
+class Formula final : public ColorField {
+public:
+    explicit Formula(Expression expression) : expression_(std::move(expression)) {}
+    void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override {
+        expression_.evaluate(points, colors);
+    }
+
+private:
+    Expression expression_;
 };
 
 Expected<glm::dvec3> parse_one_color(std::string_view text) {
@@ -131,6 +143,12 @@ Expected<std::unique_ptr<ColorField>> parse_noise(std::string_view text) {
     return make_noise(scale);
 }
 
+Expected<std::unique_ptr<ColorField>> parse_expression(std::string_view text) {
+    auto expression = Expression::parse(text);
+    if (!expression) return fail("expr: " + expression.error().message);
+    return std::make_unique<Formula>(std::move(*expression));
+}
+
 }  // namespace
 
 Expected<std::unique_ptr<ColorField>> parse_color(std::string_view spec) {
@@ -144,10 +162,11 @@ Expected<std::unique_ptr<ColorField>> parse_color(std::string_view spec) {
         if (kind == "constant") return make_constant(arguments);
         if (kind == "gradient") return make_gradient(arguments);
         if (kind == "noise") return parse_noise(arguments);
+        if (kind == "expr") return parse_expression(arguments);
     }
     return fail(
         fmt::format("colour \"{}\" is not understood; allowed: constant:NAME, constant:#rrggbb, gradient,"
-                    " gradient:COLOR,COLOR, noise, noise:SCALE",
+                    " gradient:COLOR,COLOR, noise, noise:SCALE, expr:EXPRESSION",
                     spec));
 }
 

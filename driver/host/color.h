@@ -30,9 +30,11 @@ public:
 ///   gradient:COLOR,COLOR    from bottom to top, mixed evenly to the eye (Oklab)
 ///   noise, noise:SCALE      Perlin's noise through a palette; SCALE cells along each side of the box, 0.1 … 256,
 ///   default 4
+///   expr:EXPRESSION         a formula of the point, as in "expr: hsv(0.5 + 0.5*noise(8*p), 1, z)" (docs/color.md); a
+///                           scalar is grey. Columns in messages count from 1 behind the colon.
 ///
-/// The same bits on every machine. Apart from what the user names, no point is dark: the strongest channel is at least
-/// 0.5.
+/// The same bits on every machine. Apart from what the user names or computes, no point is dark: the strongest channel
+/// is at least 0.5.
 Expected<std::unique_ptr<ColorField>> parse_color(std::string_view spec);
 
 }  // namespace xorvox::host

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "driver/display/toml.h"
+#include "driver/host/framebuffer.h"
 #include "driver/host/slices.h"
 
 namespace {
@@ -44,7 +45,7 @@ TEST_CASE("painting a frame allocates nothing") {
         BitVolume volume(painter.lattice().view());
         for (std::uint32_t i = 0; i < 16; ++i) volume.view().flip(i, i, i);
         std::vector<std::byte> frame(frame_bytes(display));
-        for (const char* color : {"constant:red", "gradient", "noise"}) {
+        for (const char* color : {"constant:red", "gradient", "noise", "expr: hsv(noise(8*p), 1, z)"}) {
             const auto field = host::parse_color(color).value();
             const std::size_t before = allocations;
             const Status status = painter.paint(volume.view(), *field, frame);
@@ -54,6 +55,21 @@ TEST_CASE("painting a frame allocates nothing") {
         }
     }
     CHECK(allocations > 0);
+}
+
+TEST_CASE("framebuffer: frames that come and go allocate nothing") {
+    host::Framebuffer frames(1000, 2);
+    const std::size_t before = allocations;
+    for (int i = 0; i < 10; ++i) {
+        frames.begin_frame();
+        (void)frames.end_frame();
+        frames.latest(0);
+        frames.latest(1);
+        frames.release(1);
+    }
+    const std::size_t after = allocations;
+    CHECK(after == before);
+    CHECK(frames.latest().sequence == 10);
 }
 
 #endif

@@ -135,10 +135,21 @@ TEST_CASE("points outside the box get the nearest colour") {
     CHECK(color_at("gradient", {0, 0, 5}) == color_at("gradient", {0, 0, 1}));
 }
 
+TEST_CASE("an expression is a colour, and a scalar is grey") {
+    CHECK(color_at("expr: rgb(z, y, x)", {0.25f, 0.5f, 0.75f}) == glm::vec3(0.75f, 0.5f, 0.25f));
+    CHECK(color_at("expr:y", {0.25f, 0.5f, 0.75f}) == glm::vec3(0.5f));
+    CHECK(color_at("expr: x < 0.5 ? rgb(1, 0, 0) : rgb(0, 0, 1)", {0.6f, 0, 0}) == glm::vec3(0, 0, 1));
+    CHECK(color_at("expr: hsv(0.5+0.5*noise(8*p), 1, z)", {0.5f, 0.5f, 0}) == glm::vec3(0));
+    CHECK(message("expr: hsv(1, 2)") ==
+          "expr: found \")\" at column 10; an operator or \",\" (hsv takes 3 values) is needed there");
+    CHECK_THAT(message("expr:"), Contains("expr: found the end at column 1"));
+}
+
 TEST_CASE("a colour that is not understood is refused with what is allowed") {
-    for (const char* spec : {"", "rainbow", "constant", "red", "gradients", "gradient ", "Noise", ":"}) {
-        CHECK_THAT(message(spec),
-                   Contains(std::string("colour \"") + spec + "\"") && Contains("constant:#rrggbb, gradient,"));
+    for (const char* spec : {"", "rainbow", "constant", "red", "gradients", "gradient ", "Noise", ":", "expr"}) {
+        CHECK_THAT(message(spec), Contains(std::string("colour \"") + spec + "\"") &&
+                                      Contains("constant:#rrggbb, gradient,") &&
+                                      Contains("noise:SCALE, expr:EXPRESSION"));
     }
     CHECK_THAT(message("constant:redd"), Contains("unknown colour \"redd\"") && Contains("#rrggbb, black, silver"));
     CHECK_THAT(message("constant:"), Contains("unknown colour \"\""));

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
-#include "driver/host/noise.h"
 #include "tests/catch.h"
+#include "voxelizer/noise.h"
 
-using xorvox::host::perlin_noise;
+using xorvox::perlin_noise;
+using xorvox::simplex_noise;
 
 TEST_CASE("noise is zero at every point of whole coordinates") {
     for (int x = -9; x <= 300; x += 7) {
@@ -65,4 +67,56 @@ TEST_CASE("noise has the same bits on every machine") {
     CHECK(perlin_noise({0.5f, 0.5f, 0.5f}) == 0x1.8p-2f);
     CHECK(perlin_noise({1.25f, -3.5f, 7.75f}) == -0x1.1a1d6p-1f);
     CHECK(perlin_noise({100.1f, 200.2f, -300.3f}) == 0x1.e382d8p-3f);
+}
+
+TEST_CASE("simplex noise is continuous within and across its tetrahedra") {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> place(-20.0f, 20.0f);
+    for (int i = 0; i < 200000; ++i) {
+        const glm::vec3 a(place(random), place(random), place(random));
+        glm::vec3 b = a;
+        b[i % 3] += 0.001f;
+        REQUIRE(std::abs(simplex_noise(a) - simplex_noise(b)) < 0.008f);
+    }
+}
+
+TEST_CASE("simplex noise has the stated range and mean") {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> place(-100.0f, 100.0f);
+    double sum = 0;
+    double squares = 0;
+    float least = 0;
+    float most = 0;
+    constexpr int n = 400000;
+    for (int i = 0; i < n; ++i) {
+        const float value = simplex_noise({place(random), place(random), place(random)});
+        least = std::min(least, value);
+        most = std::max(most, value);
+        sum += value;
+        squares += double{value} * value;
+    }
+    CHECK(least >= -1.0f);
+    CHECK(most <= 1.0f);
+    CHECK(least < -0.9f);
+    CHECK(most > 0.9f);
+    CHECK(std::abs(sum / n) < 0.005);
+    CHECK(std::sqrt(squares / n) == Approx(0.39).margin(0.02));
+}
+
+TEST_CASE("simplex noise has the same bits on every machine") {
+    CHECK(simplex_noise({0.0f, 0.0f, 0.0f}) == 0.0f);
+    CHECK(simplex_noise({0.5f, 0.25f, 0.125f}) == 0x1.beee74p-2f);
+    CHECK(simplex_noise({100.1f, 200.2f, -300.3f}) == 0x1.92a99p-3f);
+}
+
+TEST_CASE("there is no noise where coordinates are too large or no numbers") {
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const float far : {5e6f, -5e6f, 3e38f, infinity, -infinity, std::numeric_limits<float>::quiet_NaN()}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 point(0.3f);
+            point[axis] = far;
+            CHECK(perlin_noise(point) == 0.0f);
+            CHECK(simplex_noise(point) == 0.0f);
+        }
+    }
 }

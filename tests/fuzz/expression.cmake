@@ -1,0 +1,1 @@
+xorvox_fuzzer(expression SOURCES expression.cpp LINK xorvox::voxelizer)
