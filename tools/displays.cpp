@@ -205,11 +205,7 @@ Section frame_section(const DisplayDescription& display) {
     section.add_as("size_mm", "size", fmt::format("{:.6g} × {:.6g} × {:.6g} mm", size.x, size.y, size.z),
                    fmt::format("[{}, {}, {}]", size.x, size.y, size.z));
     if (display.power.led_ma > 0.0) {
-        // LEDs that are lit at the same time, in all channels.
-        const std::size_t slices = keeps_light(display) ? 1 : display.slices;
-        const double lit = static_cast<double>(frame_pixels(display) / slices) / display.scan.row_groups;
-        const double channels = bits_per_pixel(display.format) > bits_per_channel(display.format) ? 3.0 : 1.0;
-        const double current_ma = lit * channels * display.power.led_ma;
+        const double current_ma = static_cast<double>(leds_at_a_time(display)) * display.power.led_ma;
         number("full_current_ma", "all white", current_ma, measure(current_ma, {"mA", "A", "kA"}));
     }
     const std::string digest = fmt::format("{:016x}", geometry_digest(display));

@@ -18,10 +18,6 @@ namespace {
 
 using Violations = std::vector<Violation>;
 
-bool has_colors(PixelFormat format) {
-    return bits_per_pixel(format) > bits_per_channel(format);
-}
-
 void check_sizes(const DisplayDescription& display, Violations& violations) {
     const std::size_t bytes = frame_bytes(display);
     if (bytes > kMaxFrameBytes) {
@@ -277,7 +273,7 @@ void check_strings(const DisplayDescription& display, Violations& violations) {
         }
         return;
     }
-    if (!has_colors(display.format)) {
+    if (is_mono(display.format)) {
         refuse("format",
                fmt::format("found \"{}\"; allowed with driver \"{}\", whose LEDs have three colours: rgb111 to"
                            " rgb888",
@@ -305,7 +301,7 @@ void check_scan(const DisplayDescription& display, Violations& violations) {
                                               scan.bit_planes, bits, to_string(display.format)));
     }
     const std::string_view order(scan.color_order.data(), scan.color_order.size());
-    if (order != "rgb" && !has_colors(display.format)) {
+    if (order != "rgb" && is_mono(display.format)) {
         refuse("scan.color_order",
                fmt::format("found \"{}\"; allowed with format \"{}\", which has one channel: \"rgb\"", order,
                            to_string(display.format)));

@@ -125,6 +125,14 @@ constexpr std::uint32_t bits_per_channel(PixelFormat format) {
     return 0;
 }
 
+/// Whether a pixel is one LED of one colour.
+constexpr bool is_mono(PixelFormat format) {
+    return bits_per_pixel(format) == bits_per_channel(format);
+}
+constexpr std::uint32_t channel_count(PixelFormat format) {
+    return is_mono(format) ? 1 : 3;
+}
+
 constexpr std::string_view to_string(PixelFormat format) {
     switch (format) {
         case PixelFormat::Mono1: return "mono1";

@@ -62,6 +62,13 @@ constexpr double scan_time_ns(const DisplayDescription& display, std::uint32_t p
     return total * scan.row_groups;
 }
 
+/// LEDs, each channel one, that are lit at the same time when all are white.
+constexpr std::uint64_t leds_at_a_time(const DisplayDescription& display) {
+    std::uint64_t pixels = frame_pixels(display);
+    if (!keeps_light(display)) pixels /= std::uint64_t{display.slices} * display.scan.row_groups;
+    return pixels * channel_count(display.format);
+}
+
 /// The most bit planes a channel that fit into a slice's time, at most those of the format; 0: not even one.
 constexpr std::uint32_t fitting_bit_planes(const DisplayDescription& display) {
     std::uint32_t planes = bits_per_channel(display.format);

@@ -14,14 +14,6 @@
 
 namespace xorvox::host {
 
-/// Whether a pixel is one LED of one colour.
-constexpr bool is_mono(PixelFormat format) {
-    return bits_per_pixel(format) == bits_per_channel(format);
-}
-constexpr std::uint32_t channel_count(PixelFormat format) {
-    return is_mono(format) ? 1 : 3;
-}
-
 /// The bits of channel 0 … channel_count − 1 (red, green, blue) in a pixel.
 inline std::uint32_t channel_mask(PixelFormat format, std::uint32_t channel) {
     if (is_mono(format)) return (1u << bits_per_pixel(format)) - 1;

@@ -60,7 +60,7 @@ std::uint32_t quantize(glm::vec3 linear, PixelFormat format) {
 std::uint32_t visible_code(glm::vec3 linear, PixelFormat format) {
     const std::uint32_t code = quantize(linear, format);
     if (code != 0 || is_black(linear)) return code;
-    if (bits_per_pixel(format) == bits_per_channel(format)) return 1;  // one LED
+    if (is_mono(format)) return 1;
     const auto [red, green, blue] = channels(format);
     // A NaN is dark here, too: it compares false.
     float strongest = 0.0f;

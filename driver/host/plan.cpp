@@ -101,10 +101,7 @@ ScanPlan plan_scan(const DisplayDescription& display) {
 
 CurrentPlan plan_current(const DisplayDescription& display) {
     CurrentPlan plan;
-    const std::uint64_t channels = bits_per_pixel(display.format) == bits_per_channel(display.format) ? 1 : 3;
-    std::uint64_t pixels = frame_pixels(display);
-    if (!keeps_light(display)) pixels /= std::uint64_t{display.slices} * display.scan.row_groups;
-    plan.lit_leds = pixels * channels;
+    plan.lit_leds = leds_at_a_time(display);
     plan.all_white_ma = static_cast<double>(plan.lit_leds) * display.power.led_ma;
     plan.limit_ma = display.power.limit_ma;
     if (plan.limit_ma > 0.0 && plan.all_white_ma > plan.limit_ma) plan.white_part = plan.limit_ma / plan.all_white_ma;

@@ -30,10 +30,6 @@ std::vector<LitPixel> lit(const DisplayDescription& display, Pattern pattern, st
     return lit_pixels(display, painted(display, pattern, number));
 }
 
-bool is_mono(PixelFormat format) {
-    return format == PixelFormat::Mono1 || format == PixelFormat::Mono2 || format == PixelFormat::Mono4;
-}
-
 std::uint32_t white(PixelFormat format) {
     return static_cast<std::uint32_t>((std::uint64_t{1} << bits_per_pixel(format)) - 1);
 }
