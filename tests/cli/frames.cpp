@@ -11,14 +11,6 @@ namespace {
 
 const std::string kDuck = std::string(XORVOX_SOURCE_DIR) + "/examples/duck.ply";
 
-Outcome succeeds(const std::vector<std::string>& arguments) {
-    Outcome outcome = run_program(arguments);
-    CAPTURE(arguments, outcome.out, outcome.err);
-    REQUIRE(outcome.status == 0);
-    REQUIRE(outcome.err.empty());
-    return outcome;
-}
-
 /// The number behind "key": in a JSON text.
 double number(const std::string& json, const std::string& key) {
     const std::size_t at = json.find("\"" + key + "\": ");

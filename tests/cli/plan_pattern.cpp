@@ -13,14 +13,6 @@ using namespace xorvox::test;
 
 namespace {
 
-Outcome succeeds(const std::vector<std::string>& arguments) {
-    Outcome outcome = run_program(arguments);
-    CAPTURE(arguments, outcome.out, outcome.err);
-    REQUIRE(outcome.status == 0);
-    REQUIRE(outcome.err.empty());
-    return outcome;
-}
-
 void refused(const std::vector<std::string>& arguments, const std::vector<std::string>& fragments) {
     const Outcome outcome = run_program(arguments);
     CAPTURE(arguments, outcome.out, outcome.err);

@@ -15,6 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/catch.h"
+
 extern char** environ;
 
 namespace xorvox::test {
@@ -79,6 +81,14 @@ Outcome run_program(const std::vector<std::string>& arguments, std::uint64_t mem
     drain(spawned.out, outcome.out);
     errors.join();
     outcome.status = wait_for(spawned.pid);
+    return outcome;
+}
+
+Outcome succeeds(const std::vector<std::string>& arguments) {
+    Outcome outcome = run_program(arguments);
+    CAPTURE(arguments, outcome.out, outcome.err);
+    REQUIRE(outcome.status == 0);
+    REQUIRE(outcome.err.empty());
     return outcome;
 }
 
