@@ -91,10 +91,11 @@ std::size_t make_packets(const host::FrameEncoder& encoder, std::vector<std::byt
 
 Expected<Steps> measure_frames(const DisplayDescription& display, const Mesh& mesh, const std::string& source,
                                unsigned threads, int frames) {
+    const auto color = host::parse_color("constant:white");
+    if (!color) return tl::unexpected(color.error());
     FrameMakerOptions options;
-    options.color = "constant:white";
     options.threads = threads;
-    const auto maker = FrameMaker::make(display, mesh, source, options);
+    const auto maker = FrameMaker::make(display, mesh, source, **color, options);
     if (!maker) return tl::unexpected(maker.error());
     host::FrameEncoder encoder({.max_packet_bytes = wire::kMaxPacketBytes, .lz4 = true});
     std::vector<std::byte> packet(wire::kMaxPacketBytes);
@@ -132,12 +133,14 @@ Expected<Steps> measure_frames(const DisplayDescription& display, const Mesh& me
 
 Expected<Resampling> measure_resampling(const DisplayDescription& display, const Mesh& mesh, const std::string& source,
                                         int runs) {
+    const auto color = host::parse_color("constant:white");
+    if (!color) return tl::unexpected(color.error());
     FrameMakerOptions options;
-    const auto native = FrameMaker::make(display, mesh, source, options);
+    const auto native = FrameMaker::make(display, mesh, source, **color, options);
     if (!native) return tl::unexpected(native.error());
     if (const auto made = (*native)->voxelize(mesh.positions); !made) return tl::unexpected(made.error());
     options.resampled = true;
-    const auto resampled = FrameMaker::make(display, mesh, source, options);
+    const auto resampled = FrameMaker::make(display, mesh, source, **color, options);
     if (!resampled) return tl::unexpected(resampled.error());
     if (const auto made = (*resampled)->voxelize(mesh.positions); !made) return tl::unexpected(made.error());
 

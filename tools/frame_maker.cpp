@@ -20,11 +20,11 @@ SolidOptions solid_options(unsigned threads) {
 }  // namespace
 
 FrameMaker::FrameMaker(const DisplayDescription& display, const Mesh& mesh, std::string source,
-                       const FrameMakerOptions& options, std::unique_ptr<host::ColorField> color)
+                       const host::ColorField& color, const FrameMakerOptions& options)
     : source_(std::move(source)),
       mesh_(mesh),
       slices_(display.slices),
-      color_(std::move(color)),
+      color_(color),
       painter_(display, options.light),
       volume_(painter_.lattice().view()),
       threads_(options.threads),
@@ -35,10 +35,9 @@ FrameMaker::FrameMaker(const DisplayDescription& display, const Mesh& mesh, std:
 }
 
 Expected<std::unique_ptr<FrameMaker>> FrameMaker::make(const DisplayDescription& display, const Mesh& mesh,
-                                                       std::string source, const FrameMakerOptions& options) {
-    auto color = host::parse_color(options.color);
-    if (!color) return fail("--color: " + color.error().message);
-    std::unique_ptr<FrameMaker> maker(new FrameMaker(display, mesh, std::move(source), options, std::move(*color)));
+                                                       std::string source, const host::ColorField& color,
+                                                       const FrameMakerOptions& options) {
+    std::unique_ptr<FrameMaker> maker(new FrameMaker(display, mesh, std::move(source), color, options));
     if (const auto begun = maker->begin(); !begun) return tl::unexpected(begun.error());
     return maker;
 }
@@ -69,7 +68,7 @@ Expected<void> FrameMaker::paint(std::span<std::byte> frame) const {
     const auto paint_part = [&](unsigned part) {
         const auto begin = static_cast<std::uint32_t>(std::uint64_t{slices_} * part / threads_);
         const auto end = static_cast<std::uint32_t>(std::uint64_t{slices_} * (part + 1) / threads_);
-        if (painter_.paint_slices(volume_.view(), *color_, frame, begin, end - begin) != Status::Ok) painted = false;
+        if (painter_.paint_slices(volume_.view(), color_, frame, begin, end - begin) != Status::Ok) painted = false;
     };
     {
         std::vector<std::jthread> others;

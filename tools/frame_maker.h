@@ -19,7 +19,6 @@
 namespace xorvox::tools {
 
 struct FrameMakerOptions {
-    std::string color = "gradient";  ///< As host::parse_color takes it.
     host::LightMode light = host::LightMode::Bright;
     bool resampled = false;  ///< Voxelized on a grid of cubes, of which the display's samples then take the nearest.
     unsigned threads = 1;    ///< Of both steps.
@@ -27,9 +26,10 @@ struct FrameMakerOptions {
 
 class FrameMaker {
 public:
-    /// Borrows `display` and `mesh`, which messages call `source`, for the maker's life.
+    /// Borrows `display`, `mesh`, which messages call `source`, and `color` for the maker's life.
     static Expected<std::unique_ptr<FrameMaker>> make(const DisplayDescription& display, const Mesh& mesh,
-                                                      std::string source, const FrameMakerOptions& options);
+                                                      std::string source, const host::ColorField& color,
+                                                      const FrameMakerOptions& options);
 
     /// Puts the vertices at `positions`, as many as the mesh has, which are borrowed until the next call; sets
     /// `volume()` to the samples inside.
@@ -41,15 +41,15 @@ public:
     const BitVolume& volume() const { return volume_; }
 
 private:
-    FrameMaker(const DisplayDescription& display, const Mesh& mesh, std::string source,
-               const FrameMakerOptions& options, std::unique_ptr<host::ColorField> color);
+    FrameMaker(const DisplayDescription& display, const Mesh& mesh, std::string source, const host::ColorField& color,
+               const FrameMakerOptions& options);
     Expected<void> begin();
     Lattice drawn_on() const { return map_ ? map_->grid() : painter_.lattice().view(); }
 
     std::string source_;
     const Mesh& mesh_;
     std::uint32_t slices_;
-    std::unique_ptr<host::ColorField> color_;
+    const host::ColorField& color_;
     host::FramePainter painter_;
     BitVolume volume_;
     std::optional<host::SliceMap> map_;  ///< Where resampled.

@@ -133,7 +133,8 @@ Expected<void> show(const ShowOptions& options) {
     if (const auto possible = check_delivery(to, *address, options.mesh.path); !possible) return possible;
     const Expected<DisplayFile> display = load_display(options.display);
     if (!display) return tl::unexpected(display.error());
-    if (const auto color = host::parse_color(options.color); !color) return fail("--color: " + color.error().message);
+    const auto color = host::parse_color(options.color);
+    if (!color) return fail("--color: " + color.error().message);
     if (const auto fits = check_display_fits(*display); !fits) return fits;
     std::optional<io::AtomicFile> png;
     if (!to.png.empty()) {
@@ -146,9 +147,8 @@ Expected<void> show(const ShowOptions& options) {
     const bool turns = options.spin_rpm.has_value();
     if (const auto fitted = fit_to_display(input->mesh, *display, options.mesh.path, turns); !fitted) return fitted;
     const auto maker =
-        FrameMaker::make(*display, input->mesh, options.mesh.path,
-                         {.color = options.color,
-                          .light = options.light == "uniform" ? host::LightMode::Uniform : host::LightMode::Bright,
+        FrameMaker::make(*display, input->mesh, options.mesh.path, **color,
+                         {.light = options.light == "uniform" ? host::LightMode::Uniform : host::LightMode::Bright,
                           .resampled = options.sampling == "cartesian"});
     if (!maker) return tl::unexpected(maker.error());
     const auto show_it = options.spin_rpm ? show_spinning : show_still;
