@@ -57,7 +57,7 @@
 //   rgb565  B4…B0, G5…G0, R4…R0      (a little-endian 16-bit word RRRRRGGGGGGBBBBB)
 //   rgb888  R7…R0, G7…G0, B7…B0      (bytes R, G, B)
 //
-// Codes are proportional to light. Freestanding; everyone may include this file.
+// How much light a code gives: struct Light. Freestanding; everyone may include this file.
 #pragma once
 
 #include <array>
@@ -241,6 +241,20 @@ struct Scan {
     std::array<char, 3> color_order{'r', 'g', 'b'};  ///< In which channels go out; each once.
 };
 
+/// What light a code of a channel gives, as a part of the most. v is level ÷ highest level, of the bits that are shown
+/// (shown_bit_planes).
+enum class Response : std::uint8_t {
+    Linear = 0,  ///< v: LEDs that are lit for a time proportional to the code.
+    Gamma = 1,   ///< v to the power of `gamma`: a table in the controller or projector.
+    Srgb = 2,    ///< IEC 61966-2-1.
+    Cie1931 = 3  ///< The luminance whose lightness is v: steps that look equal (CIE 1976 L*, of 1931's observer).
+};
+
+struct Light {
+    Response response = Response::Linear;
+    double gamma = 2.2;  ///< Of Response::Gamma: 1 … 4.
+};
+
 /// What light draws. 0: unknown, and then not limited.
 struct Power {
     double led_ma = 0.0;    ///< Of one channel of one LED while it is lit.
@@ -282,6 +296,7 @@ struct DisplayDescription {
     // How it is driven; not part of the geometry.
     Sync sync;
     Scan scan;
+    Light light;
     Power power;
 };
 
