@@ -1,11 +1,11 @@
 // show: mesh → voxels on the display's own samples → colours → frame → packets → a display, simulated here or far away.
-#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "driver/display/lattice.h"
 #include "driver/display/toml.h"
@@ -14,6 +14,7 @@
 #include "tools/console.h"
 #include "tools/delivery.h"
 #include "tools/frame_maker.h"
+#include "tools/mesh_content.h"
 #include "tools/mesh_input.h"
 #include "tools/placement.h"
 #include "tools/stream.h"
@@ -56,12 +57,12 @@ std::string head_json(const ShowOptions& options, const DisplayDescription& disp
 }
 
 Expected<void> show_still(const ShowOptions& options, const transport::Address& address,
-                          const DisplayDescription& display, const Mesh& mesh, FrameMaker& maker, io::AtomicFile* png) {
+                          const DisplayDescription& display, FrameMaker& maker, io::AtomicFile* png) {
     std::vector<std::byte> frame(frame_bytes(display));
     std::size_t voxels = 0;
     {
         const Progress progress("voxelizing");
-        if (const auto drawn = maker.voxelize(mesh.positions); !drawn) return drawn;
+        if (const auto drawn = maker.draw(); !drawn) return drawn;
         if (const auto painted = maker.paint(frame); !painted) return painted;
         voxels = maker.volume().count();
     }
@@ -87,22 +88,17 @@ Expected<void> show_still(const ShowOptions& options, const transport::Address& 
 }
 
 Expected<void> show_spinning(const ShowOptions& options, const transport::Address& address,
-                             const DisplayDescription& display, const Mesh& mesh, FrameMaker& maker,
-                             io::AtomicFile* png) {
+                             const DisplayDescription& display, FrameMaker& maker, io::AtomicFile* png) {
     const DisplayExtent room = extent(display);
-    const glm::dvec2 axis = glm::dvec2(room.lower + room.upper) / 2.0;
-    std::vector<glm::dvec3> positions(mesh.positions.size());
+    const glm::dvec3 middle = (room.lower + room.upper) / 2.0;
     std::optional<Error> broken;
     const FrameSource source = [&](const FrameMoment& moment, std::span<std::byte> frame) {
         const double angle = moment.seconds * *options.spin_rpm / 60.0 * 2.0 * std::numbers::pi;
-        const double c = std::cos(angle);
-        const double s = std::sin(angle);
-        for (std::size_t i = 0; i < positions.size(); ++i) {
-            const glm::dvec2 from = glm::dvec2(mesh.positions[i]) - axis;
-            positions[i] = {axis.x + c * from.x - s * from.y, axis.y + s * from.x + c * from.y, mesh.positions[i].z};
-        }
-        Expected<void> made = maker.voxelize(positions);
-        if (made) made = maker.paint(frame);
+        const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, {0.0, 0.0, 1.0});
+        const glm::dmat4 one(1.0);
+        Expected<void> made =
+            maker.draw(moment.seconds, glm::translate(one, middle) * turn * glm::translate(one, -middle));
+        if (made) made = maker.paint(frame, static_cast<std::uint32_t>(moment.number));
         if (!made) broken = made.error();
         return made.has_value();
     };
@@ -144,15 +140,18 @@ Expected<void> show(const ShowOptions& options) {
     }
     Expected<MeshInput> input = read_solid(options.mesh);
     if (!input) return tl::unexpected(input.error());
-    const bool turns = options.spin_rpm.has_value();
-    if (const auto fitted = fit_to_display(input->mesh, *display, options.mesh.path, turns); !fitted) return fitted;
+    std::vector<NamedMesh> meshes;
+    meshes.push_back({std::move(input->mesh), options.mesh.path});
+    auto content =
+        MeshContent::make(std::move(meshes), *display, options.spin_rpm ? Turning::Upright : Turning::Not, 0.0, 1);
+    if (!content) return tl::unexpected(content.error());
     const auto maker = FrameMaker::make(
-        *display, input->mesh, options.mesh.path, **color,
+        *display, *content, color->get(),
         {.light = {.mode = options.light == "uniform" ? host::LightMode::Uniform : host::LightMode::Bright},
          .resampled = options.sampling == "cartesian"});
     if (!maker) return tl::unexpected(maker.error());
     const auto show_it = options.spin_rpm ? show_spinning : show_still;
-    return show_it(options, *address, *display, input->mesh, **maker, png ? &*png : nullptr);
+    return show_it(options, *address, *display, **maker, png ? &*png : nullptr);
 }
 
 }  // namespace xorvox::tools
