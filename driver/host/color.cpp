@@ -151,6 +151,10 @@ Expected<std::unique_ptr<ColorField>> parse_expression(std::string_view text) {
 
 }  // namespace
 
+Expected<glm::dvec3> parse_color_name(std::string_view text) {
+    return parse_one_color(text);
+}
+
 Expected<std::unique_ptr<ColorField>> parse_color(std::string_view spec) {
     const std::size_t colon = spec.find(':');
     const std::string_view kind = spec.substr(0, colon);

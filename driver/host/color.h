@@ -22,6 +22,9 @@ public:
     virtual std::optional<glm::vec3> constant() const { return std::nullopt; }
 };
 
+/// Linear light of a colour as users type it: a name, or #rrggbb in sRGB. The message for anything else lists the names.
+Expected<glm::dvec3> parse_color_name(std::string_view text);
+
 /// What `--color` takes. The message for anything else lists what is allowed. COLOR is a name or #rrggbb (sRGB).
 ///
 ///   constant:COLOR          one colour
