@@ -28,8 +28,8 @@ Expected<Image> read_image(const std::string& path);
 
 /// The same of a file in memory. `source` is the name that errors begin with.
 ///
-/// PNG: every kind; 16 bits a channel become 8, a gamma that the file states becomes sRGB's. JPEG: baseline and
-/// progressive, grey, YCbCr and CMYK, opaque; profiles and orientation in EXIF are not looked at.
+/// PNG: every kind; 16 bits a channel become 8, and a gamma that the file states becomes 1/2.2, about that of sRGB.
+/// JPEG: baseline and progressive, grey, YCbCr and CMYK, opaque; profiles and orientation in EXIF are not looked at.
 Expected<Image> decode_image(std::string_view bytes, std::string_view source);
 
 }  // namespace xorvox::io

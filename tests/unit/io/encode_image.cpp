@@ -44,7 +44,6 @@ std::string encode_png(const xorvox::Image& image) {
 }
 
 std::string encode_png_of_16_bits(std::uint32_t width, std::uint32_t height) {
-    // libpng writes linear light with a gamma of 1.
     std::vector<std::uint16_t> pixels(std::size_t{width} * height);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         pixels[i] = static_cast<std::uint16_t>(65535 * i / (pixels.size() - 1));

@@ -8,7 +8,7 @@
 
 /// `image` as a PNG with R, G, B and A.
 std::string encode_png(const xorvox::Image& image);
-/// One channel of 16 bits: values from 0 to 65535 in even steps from pixel to pixel.
+/// One channel of 16 bits, and a chunk gAMA: values from 0 to 65535 in even steps from pixel to pixel.
 std::string encode_png_of_16_bits(std::uint32_t width, std::uint32_t height);
 /// `image` without A, as a baseline JPEG of the best quality.
 std::string encode_jpeg(const xorvox::Image& image);
