@@ -35,6 +35,11 @@ Expected<void> check_size(ImageSize size, std::string_view source) {
     return {};
 }
 
+tl::unexpected<Error> too_few_bytes(std::size_t bytes, ImageSize size, std::string_view source) {
+    return fail(fmt::format("{}: {} bytes cannot hold {} × {} pixels; save the picture again", source, bytes,
+                            size.width, size.height));
+}
+
 /// Frees what libpng has taken, whatever happens.
 class Png {
 public:
@@ -60,10 +65,7 @@ Expected<Image> decode_png(std::string_view bytes, std::string_view source) {
     if (const auto ok = check_size(size, source); !ok) return tl::unexpected(ok.error());
     // A row of a picture of one bit a pixel, with the byte that says how it is filtered.
     const std::uint64_t least = std::uint64_t{size.height} * (1 + (size.width + 7) / 8);
-    if (least > kMostInflated * bytes.size()) {
-        return fail(fmt::format("{}: {} bytes cannot hold {} × {} pixels; save the picture again", source, bytes.size(),
-                                size.width, size.height));
-    }
+    if (least > kMostInflated * bytes.size()) return too_few_bytes(bytes.size(), size, source);
     Png png;
     const auto failed = [&] {
         return fail(fmt::format("{}: the PNG cannot be decoded: {}; save the picture again", source, png->message));
@@ -82,14 +84,11 @@ Expected<Image> decode_png(std::string_view bytes, std::string_view source) {
 }
 
 Expected<Image> decode_whole_jpeg(std::string_view bytes, std::string_view source) {
-    const auto size = jpeg_size(bytes, source);
-    if (!size) return tl::unexpected(size.error());
-    if (const auto ok = check_size(*size, source); !ok) return tl::unexpected(ok.error());
-    if (std::uint64_t{size->width} * size->height > kMostPixelsAByte * bytes.size()) {
-        return fail(fmt::format("{}: {} bytes cannot hold {} × {} pixels; save the picture again", source, bytes.size(),
-                                size->width, size->height));
-    }
-    return decode_jpeg(bytes, source, *size);
+    return decode_jpeg(bytes, source, [&](ImageSize size) -> Expected<void> {
+        if (const auto ok = check_size(size, source); !ok) return ok;
+        if (std::uint64_t{size.width} * size.height <= kMostPixelsAByte * bytes.size()) return {};
+        return too_few_bytes(bytes.size(), size, source);
+    });
 }
 
 }  // namespace

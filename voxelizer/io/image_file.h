@@ -1,4 +1,4 @@
-// Image files: PNG by libpng, JPEG by stb_image.
+// Image files: PNG by libpng, JPEG by libjpeg-turbo.
 //
 // A file is read whole or refused with one line that names it, what was found and what to do: files cut short, sizes
 // beyond the limits below, and pictures that are larger than their bytes could say are refused before memory is taken.
@@ -29,7 +29,8 @@ Expected<Image> read_image(const std::string& path);
 /// The same of a file in memory. `source` is the name that errors begin with.
 ///
 /// PNG: every kind; 16 bits a channel become 8, and a gamma that the file states becomes 1/2.2, about that of sRGB.
-/// JPEG: baseline and progressive, grey, YCbCr and CMYK, opaque; profiles and orientation in EXIF are not looked at.
+/// JPEG: baseline and progressive, grey and colours but CMYK, opaque; profiles and the orientation in EXIF are not
+/// looked at.
 Expected<Image> decode_image(std::string_view bytes, std::string_view source);
 
 }  // namespace xorvox::io

@@ -1,103 +1,102 @@
 #include "voxelizer/io/jpeg.h"
 
+#include <array>
+#include <csetjmp>
 #include <cstddef>
-#include <cstring>
-#include <memory>
+#include <cstdio>
+#include <string>
 
 #include <fmt/format.h>
+#include <jpeglib.h>
 
-// stb_image is compiled here, with JPEG alone, and with none of the checks that are for our own code.
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#endif
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_JPEG
-#define STBI_NO_STDIO
-#define STBI_MAX_DIMENSIONS 16384
-#include <stb/stb_image.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
+#include <jerror.h>  // after jpeglib.h, which it needs
 
 namespace xorvox::io {
 namespace {
 
-static_assert(Image::kMostSide == STBI_MAX_DIMENSIONS);
+/// Files in which the whole picture is told again and again cost time without end.
+constexpr int kMostScans = 256;
 
-std::uint32_t byte_at(std::string_view bytes, std::size_t at) {
-    return static_cast<unsigned char>(bytes[at]);
-}
+/// libjpeg leaves its functions by longjmp when it fails: only C's variables may live in their callers.
+class Decoder {
+public:
+    explicit Decoder(std::string_view bytes) : bytes_(bytes) {
+        info_.err = jpeg_std_error(&errors_);
+        info_.client_data = this;
+        errors_.error_exit = [](j_common_ptr info) { give_up(info); };
+        errors_.emit_message = [](j_common_ptr info, int level) {
+            // Bytes between two segments do no harm; other warnings are about what is missing or was made up.
+            if (level < 0 && info->err->msg_code != JWRN_EXTRANEOUS_DATA) give_up(info);
+        };
+        progress_.progress_monitor = [](j_common_ptr info) {
+            if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number <= kMostScans) return;
+            auto& decoder = *static_cast<Decoder*>(info->client_data);
+            decoder.too_many_scans_ = true;
+            std::longjmp(decoder.failure_, 1);
+        };
+    }
+    ~Decoder() { jpeg_destroy_decompress(&info_); }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
 
-std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-    return byte_at(bytes, at) << 8 | byte_at(bytes, at + 1);
-}
+    bool read_header() {
+        if (setjmp(failure_) != 0) return false;
+        jpeg_create_decompress(&info_);
+        info_.progress = &progress_;
+        jpeg_mem_src(&info_, reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size());
+        jpeg_read_header(&info_, TRUE);
+        info_.out_color_space = JCS_EXT_RGBA;
+        return true;
+    }
+    /// `pixels` has the header's size.
+    bool read_pixels(std::array<std::uint8_t, 4>* pixels) {
+        if (setjmp(failure_) != 0) return false;
+        jpeg_start_decompress(&info_);
+        while (info_.output_scanline < info_.output_height) {
+            JSAMPROW row = pixels[std::size_t{info_.output_scanline} * info_.output_width].data();
+            jpeg_read_scanlines(&info_, &row, 1);
+        }
+        jpeg_finish_decompress(&info_);
+        return true;
+    }
 
-/// SOF0 … SOF15 but for the tables DHT, JPG and DAC among them (ITU-T T.81, table B.1).
-bool begins_frame(std::uint32_t marker) {
-    return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-}
+    ImageSize size() const { return {info_.image_width, info_.image_height}; }
+    bool is_cmyk() const { return info_.jpeg_color_space == JCS_CMYK || info_.jpeg_color_space == JCS_YCCK; }
+    std::string message() const {
+        return too_many_scans_ ? fmt::format("it has more than {} scans", kMostScans) : message_.data();
+    }
 
-struct FreePixels {
-    void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
+private:
+    [[noreturn]] static void give_up(j_common_ptr info) {
+        auto* const decoder = static_cast<Decoder*>(info->client_data);
+        info->err->format_message(info, decoder->message_.data());
+        std::longjmp(decoder->failure_, 1);
+    }
+
+    std::string_view bytes_;
+    jpeg_decompress_struct info_{};
+    jpeg_error_mgr errors_{};
+    jpeg_progress_mgr progress_{};
+    std::jmp_buf failure_{};
+    std::array<char, JMSG_LENGTH_MAX> message_{};
+    bool too_many_scans_ = false;
 };
 
 }  // namespace
 
-Expected<ImageSize> jpeg_size(std::string_view bytes, std::string_view source) {
-    const auto broken = [&](std::size_t at, const char* what) {
-        return fail(fmt::format("{}: byte {}: the JPEG {}; save the picture again", source, at, what));
-    };
-    ImageSize size;
-    // Segments of a marker and a length, up to the first scan.
-    std::size_t at = 2;
-    while (true) {
-        if (at + 4 > bytes.size()) return broken(bytes.size(), "is cut short");
-        if (byte_at(bytes, at) != 0xff) return broken(at, "has no marker where one must be");
-        const std::uint32_t marker = byte_at(bytes, at + 1);
-        if (marker == 0xff) {  // padding
-            ++at;
-            continue;
-        }
-        const std::uint32_t length = word_at(bytes, at + 2);
-        if (length < 2) return broken(at, "has a segment without a length");
-        if (at + 2 + length > bytes.size()) return broken(bytes.size(), "is cut short");
-        if (begins_frame(marker)) {
-            if (length < 8) return broken(at, "has a header that is too short");
-            size = {word_at(bytes, at + 7), word_at(bytes, at + 5)};
-        }
-        at += 2 + length;
-        if (marker == 0xda) break;
-    }
-    if (size.width == 0 || size.height == 0) return broken(at, "tells no size");
-    // stb_image makes up what is missing at the end.
-    if (bytes.find("\xff\xd9", at) == bytes.npos) return broken(bytes.size(), "is cut short");
-    return size;
-}
-
-Expected<Image> decode_jpeg(std::string_view bytes, std::string_view source, ImageSize size) {
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    const std::unique_ptr<stbi_uc, FreePixels> pixels(stbi_load_from_memory(
-        reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &width, &height, &channels, 4));
-    if (!pixels) {
+Expected<Image> decode_jpeg(std::string_view bytes, std::string_view source,
+                            const std::function<Expected<void>(ImageSize)>& check) {
+    Decoder decoder(bytes);
+    const auto failed = [&] {
         return fail(
-            fmt::format("{}: the JPEG cannot be decoded: {}; save the picture again", source, stbi_failure_reason()));
-    }
-    if (static_cast<std::uint32_t>(width) != size.width || static_cast<std::uint32_t>(height) != size.height) {
-        return fail(fmt::format("{}: the JPEG tells two sizes; save the picture again", source));
-    }
-    Image image{size.width, size.height, {}};
-    image.pixels.resize(std::size_t{size.width} * size.height);
-    std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * 4);
+            fmt::format("{}: the JPEG cannot be decoded: {}; save the picture again", source, decoder.message()));
+    };
+    if (!decoder.read_header()) return failed();
+    if (const auto ok = check(decoder.size()); !ok) return tl::unexpected(ok.error());
+    if (decoder.is_cmyk()) return fail(fmt::format("{}: the JPEG is in CMYK; save the picture as RGB", source));
+    Image image{decoder.size().width, decoder.size().height, {}};
+    image.pixels.resize(std::size_t{image.width} * image.height);
+    if (!decoder.read_pixels(image.pixels.data())) return failed();
     return image;
 }
 

@@ -1,7 +1,8 @@
-// JPEG by stb_image. Private to voxelizer/io.
+// JPEG by libjpeg-turbo. Private to voxelizer/io.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include "voxelizer/error.h"
@@ -14,10 +15,9 @@ struct ImageSize {
     std::uint32_t height = 0;
 };
 
-/// What a JPEG says of its size, found without decoding it. An error when its markers are not sound, or it has no end.
-Expected<ImageSize> jpeg_size(std::string_view bytes, std::string_view source);
-
-/// The picture of `size`, which jpeg_size() gave. Throws std::bad_alloc.
-Expected<Image> decode_jpeg(std::string_view bytes, std::string_view source, ImageSize size);
+/// The picture in `bytes`. `check` is asked for its size before memory is taken for it; its error is passed on. Throws
+/// std::bad_alloc.
+Expected<Image> decode_jpeg(std::string_view bytes, std::string_view source,
+                            const std::function<Expected<void>(ImageSize)>& check);
 
 }  // namespace xorvox::io

@@ -1,26 +1,12 @@
 #include "tests/unit/io/encode_image.h"
 
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <vector>
 
+#include <jpeglib.h>
 #include <png.h>
-
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#endif
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#include <stb/stb_image_write.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
 
 namespace {
 
@@ -51,13 +37,32 @@ std::string encode_png_of_16_bits(std::uint32_t width, std::uint32_t height) {
     return write_png(width, height, PNG_FORMAT_LINEAR_Y, pixels.data());
 }
 
-std::string encode_jpeg(const xorvox::Image& image) {
-    std::string file;
-    const auto append = [](void* to, void* data, int size) {
-        static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-    };
-    stbi_write_jpg_to_func(append, &file, static_cast<int>(image.width), static_cast<int>(image.height), 4,
-                           image.pixels.data(), 100);
+std::string encode_jpeg(const xorvox::Image& image, bool progressive) {
+    jpeg_compress_struct jpeg{};
+    jpeg_error_mgr errors{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&jpeg, &bytes, &size);
+    jpeg.image_width = image.width;
+    jpeg.image_height = image.height;
+    jpeg.input_components = 4;
+    jpeg.in_color_space = JCS_EXT_RGBA;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_quality(&jpeg, 100, TRUE);
+    if (progressive) jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    for (std::size_t y = 0; y < image.height; ++y) {
+        auto row = std::vector(image.pixels.begin() + static_cast<std::ptrdiff_t>(y * image.width),
+                               image.pixels.begin() + static_cast<std::ptrdiff_t>((y + 1) * image.width));
+        JSAMPROW first = row[0].data();
+        jpeg_write_scanlines(&jpeg, &first, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    std::string file(reinterpret_cast<const char*>(bytes), size);
+    jpeg_destroy_compress(&jpeg);
+    std::free(bytes);
     return file;
 }
 
@@ -66,7 +71,7 @@ xorvox::Image test_picture(std::uint32_t width, std::uint32_t height) {
     for (std::uint32_t y = 0; y < height; ++y) {
         for (std::uint32_t x = 0; x < width; ++x) {
             image.pixels.push_back({static_cast<std::uint8_t>(255 * x / width),
-                                    static_cast<std::uint8_t>(255 * y / height), static_cast<std::uint8_t>(3 * (x + y)),
+                                    static_cast<std::uint8_t>(255 * y / height), static_cast<std::uint8_t>(2 * (x + y)),
                                     255});
         }
     }

@@ -58,13 +58,24 @@ TEST_CASE("a PNG of 16 bits that states no gamma is sRGB") {
 
 TEST_CASE("a JPEG is read as it was written, but for its losses") {
     const Image written = test_picture(64, 40);
-    const auto read = io::decode_image(encode_jpeg(written), "file").value();
-    REQUIRE(read.width == 64);
-    REQUIRE(read.height == 40);
-    for (std::size_t i = 0; i < written.pixels.size(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c) REQUIRE(std::abs(read.pixels[i][c] - written.pixels[i][c]) <= 12);
-        REQUIRE(read.pixels[i][3] == 255);
+    for (const bool progressive : {false, true}) {
+        const auto read = io::decode_image(encode_jpeg(written, progressive), "file").value();
+        REQUIRE(read.width == 64);
+        REQUIRE(read.height == 40);
+        for (std::size_t i = 0; i < written.pixels.size(); ++i) {
+            for (std::size_t c = 0; c < 3; ++c) REQUIRE(std::abs(read.pixels[i][c] - written.pixels[i][c]) <= 12);
+            REQUIRE(read.pixels[i][3] == 255);
+        }
     }
+}
+
+TEST_CASE("a JPEG that tells the same picture for ever is refused") {
+    std::string jpeg = encode_jpeg(test_picture(16, 16), true);
+    const std::size_t scan = jpeg.rfind("\xff\xda");
+    const std::string last = jpeg.substr(scan, jpeg.size() - 2 - scan);
+    REQUIRE(refusal(jpeg).empty());
+    for (int i = 0; i < 1000; ++i) jpeg.insert(scan, last);
+    CHECK_FALSE(refusal(jpeg).empty());
 }
 
 TEST_CASE("image files are known by their content, and paths by their name") {
@@ -97,8 +108,8 @@ TEST_CASE("images of absurd size are refused before memory is taken") {
     std::string jpeg = encode_jpeg(test_picture(8, 8));
     const std::size_t frame = jpeg.find("\xff\xc0");
     REQUIRE(frame != jpeg.npos);
-    jpeg.replace(frame + 5, 4, "\xff\xff\xff\xff");
-    CHECK_THAT(refusal(jpeg), contains("65535 × 65535 pixels are too many"));
+    jpeg.replace(frame + 5, 4, "\xff\x01\xff\x01");
+    CHECK_THAT(refusal(jpeg), contains("65281 × 65281 pixels are too many"));
     jpeg.replace(frame + 5, 4, std::string("\x20\x00\x20\x00", 4));
     CHECK_THAT(refusal(jpeg), contains("bytes cannot hold 8192 × 8192 pixels"));
 }
