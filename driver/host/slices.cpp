@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "driver/host/pixel.h"
+#include "driver/host/slice_map.h"
 
 namespace xorvox::host {
 namespace {
@@ -123,12 +124,12 @@ void for_each_rows(const DisplayDescription& display, const WireOrder& order, Co
 
 }  // namespace
 
-FramePainter::FramePainter(const DisplayDescription& display, LightMode mode)
+FramePainter::FramePainter(const DisplayDescription& display, const LightSettings& settings)
     : display_(display), lattice_(display), order_(display_, lattice_), extent_(extent(display)) {
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         slice_words_ += row_words(display.panels[p].columns) * display.panels[p].rows;
     }
-    if (mode == LightMode::Bright) return;
+    if (settings.mode != LightMode::Uniform) return;
     BitVolume all(lattice_.view());
     std::ranges::fill(all.view().words, ~std::uint64_t{0});
     static_cast<void>(SliceMap(display_, lattice_).thin(all.view()));
@@ -140,12 +141,13 @@ FramePainter::FramePainter(const DisplayDescription& display, LightMode mode)
     }
 }
 
-Status FramePainter::paint(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame) const {
-    return paint_slices(volume, color, frame, 0, display_.slices);
+Status FramePainter::paint(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame,
+                           std::uint32_t number) const {
+    return paint_slices(volume, color, frame, 0, display_.slices, number);
 }
 
 Status FramePainter::paint_slices(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame,
-                                  std::uint32_t first, std::uint32_t count) const {
+                                  std::uint32_t first, std::uint32_t count, std::uint32_t) const {
     const Lattice lattice = lattice_.view();
     if (volume.nx != lattice.nx || volume.ny != lattice.ny || volume.nz != lattice.nz ||
         volume.words.size() != volume_words(lattice.nx, lattice.ny, lattice.nz) ||

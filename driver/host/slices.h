@@ -9,7 +9,7 @@
 #include "driver/display/description.h"
 #include "driver/display/lattice.h"
 #include "driver/host/color.h"
-#include "driver/host/slice_map.h"
+#include "driver/host/light.h"
 #include "driver/host/wire_order.h"
 #include "voxelizer/bit_volume.h"
 
@@ -19,7 +19,7 @@ namespace xorvox::host {
 class FramePainter {
 public:
     /// `display` must be valid (validate_display); what it borrows must outlive the painter. Throws std::bad_alloc.
-    explicit FramePainter(const DisplayDescription& display, LightMode mode = LightMode::Bright);
+    explicit FramePainter(const DisplayDescription& display, const LightSettings& settings = {});
     FramePainter(const FramePainter&) = delete;
     FramePainter& operator=(const FramePainter&) = delete;
 
@@ -30,12 +30,13 @@ public:
     /// codes of its strong channels (visible_code); only black is dark. `volume` has the shape of lattice(). `color` is
     /// asked only at voxels to be lit, at points 0 … 1 along the box of extent(display). Ok or InvalidArgument. Several
     /// threads may paint different frames at once.
-    Status paint(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame) const;
+    Status paint(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame,
+                 std::uint32_t number = 0) const;
 
     /// The same for slices first … first + count − 1 alone; the rest of `frame`, which is whole, is left as it is.
     /// Several threads may paint different slices of one frame at once.
     Status paint_slices(ConstBitVolumeView volume, const ColorField& color, std::span<std::byte> frame,
-                        std::uint32_t first, std::uint32_t count) const;
+                        std::uint32_t first, std::uint32_t count, std::uint32_t number = 0) const;
 
 private:
     DisplayDescription display_;
