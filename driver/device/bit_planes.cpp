@@ -27,7 +27,7 @@ constexpr std::uint32_t kBlockPlaneBytes = kBlock / 8;
 template <std::size_t Bytes>
 std::uint64_t load(const std::byte* at) {
     std::uint64_t word = 0;
-    if constexpr (std::endian::native == std::endian::little) {
+    if constexpr (std::endian::native == std::endian::little && std::has_single_bit(Bytes)) {
         std::memcpy(&word, at, Bytes);
     } else {
         for (std::size_t i = 0; i < Bytes; ++i) word |= std::to_integer<std::uint64_t>(at[i]) << (8 * i);
