@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "tools/light_options.h"
 #include "voxelizer/error.h"
 #include "voxelizer/region.h"
 #include "voxelizer/simplicial.h"
@@ -76,7 +77,7 @@ struct ShowOptions {
     MeshOptions mesh;
     std::string display;
     std::string color = "gradient";
-    std::string light = "bright";     ///< Or "uniform".
+    LightOptions light;
     std::string sampling = "native";  ///< Or "cartesian".
     std::optional<double> spin_rpm;   ///< Turn the model, streaming frames at the display's own rate.
     double seconds = 10.0;            ///< Of spinning.

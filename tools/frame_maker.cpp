@@ -26,6 +26,8 @@ FrameMaker::FrameMaker(const DisplayDescription& display, const Mesh& mesh, std:
       slices_(display.slices),
       color_(color),
       painter_(display, options.light),
+      budget_(display),
+      brightness_(options.light.brightness),
       volume_(painter_.lattice().view()),
       threads_(options.threads),
       voxelizer_(solid_options(options.threads)) {
@@ -63,12 +65,22 @@ Expected<void> FrameMaker::voxelize(std::span<const glm::dvec3> positions) {
     return {};
 }
 
-Expected<void> FrameMaker::paint(std::span<std::byte> frame) const {
+Expected<void> FrameMaker::paint(std::span<std::byte> frame, std::uint32_t number) {
+    do {
+        dimmed_to_ = budget_.factor();
+        painter_.set_brightness(brightness_ * dimmed_to_);
+        if (const auto painted = paint_once(frame, number); !painted) return painted;
+    } while (!budget_.allows(frame));
+    return {};
+}
+
+Expected<void> FrameMaker::paint_once(std::span<std::byte> frame, std::uint32_t number) const {
     std::atomic<bool> painted = true;
     const auto paint_part = [&](unsigned part) {
         const auto begin = static_cast<std::uint32_t>(std::uint64_t{slices_} * part / threads_);
         const auto end = static_cast<std::uint32_t>(std::uint64_t{slices_} * (part + 1) / threads_);
-        if (painter_.paint_slices(volume_.view(), color_, frame, begin, end - begin) != Status::Ok) painted = false;
+        const Status status = painter_.paint_slices(volume_.view(), color_, frame, begin, end - begin, number);
+        if (status != Status::Ok) painted = false;
     };
     {
         std::vector<std::jthread> others;

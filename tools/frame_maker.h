@@ -10,6 +10,7 @@
 
 #include "driver/display/description.h"
 #include "driver/host/color.h"
+#include "driver/host/power_budget.h"
 #include "driver/host/slice_map.h"
 #include "driver/host/slices.h"
 #include "voxelizer/bit_volume.h"
@@ -19,9 +20,9 @@
 namespace xorvox::tools {
 
 struct FrameMakerOptions {
-    host::LightSettings light;
-    bool resampled = false;  ///< Voxelized on a grid of cubes, of which the display's samples then take the nearest.
-    unsigned threads = 1;    ///< Of both steps.
+    host::LightSettings light;  ///< What it borrows is used until the maker is made.
+    bool resampled = false;     ///< Voxelized on a grid of cubes, of which the display's samples then take the nearest.
+    unsigned threads = 1;       ///< Of both steps.
 };
 
 class FrameMaker {
@@ -34,8 +35,10 @@ public:
     /// Puts the vertices at `positions`, as many as the mesh has, which are borrowed until the next call; sets
     /// `volume()` to the samples inside.
     Expected<void> voxelize(std::span<const glm::dvec3> positions);
-    /// Colours volume() into `frame`, frame_bytes(display) long.
-    Expected<void> paint(std::span<std::byte> frame) const;
+    /// Colours volume() into `frame`, frame_bytes(display) long. `number` is the frame's, from 0 in steps of 1. Where
+    /// the display's supply has a limit, all light is dimmed to keep it; dimmed_to() says how far.
+    Expected<void> paint(std::span<std::byte> frame, std::uint32_t number = 0);
+    float dimmed_to() const { return dimmed_to_; }
 
     /// On the lattice of the display.
     const BitVolume& volume() const { return volume_; }
@@ -44,6 +47,7 @@ private:
     FrameMaker(const DisplayDescription& display, const Mesh& mesh, std::string source, const host::ColorField& color,
                const FrameMakerOptions& options);
     Expected<void> begin();
+    Expected<void> paint_once(std::span<std::byte> frame, std::uint32_t number) const;
     Lattice drawn_on() const { return map_ ? map_->grid() : painter_.lattice().view(); }
 
     std::string source_;
@@ -51,6 +55,9 @@ private:
     std::uint32_t slices_;
     const host::ColorField& color_;
     host::FramePainter painter_;
+    host::PowerBudget budget_;
+    float brightness_;
+    float dimmed_to_ = 1.0f;
     BitVolume volume_;
     std::optional<host::SliceMap> map_;  ///< Where resampled.
     BitVolume cartesian_;

@@ -29,10 +29,10 @@ void print_light(const ShowOptions& show, const std::optional<LightSeen>& light)
                thousands(seen.voxels_lit), thousands(seen.light_outside));
     // In uniform light most samples near an axis are left out, and those that are lit stand for more than their own
     // space.
-    if (seen.voxels_lit > 0 && show.light == "bright") {
+    if (seen.voxels_lit > 0 && show.light.mode == "bright") {
         fmt::print("brightness: the densest light is {:.3g} times the thinnest\n", seen.brightness_ratio);
     }
-    if (show.light == "uniform") {
+    if (show.light.mode == "uniform") {
         fmt::print("brightness: even; of the samples inside, each voxel has one lit for each panel that passes it\n");
     }
     if (!options.png.empty()) {
@@ -49,10 +49,19 @@ std::string light_json(const DeliveryOptions& options, const std::optional<Light
 
 /// What both kinds of report begin with.
 std::string head_json(const ShowOptions& options, const DisplayDescription& display, std::size_t samples,
-                      std::size_t voxels) {
-    return fmt::format("\"mesh\": {}, \"display\": {}, \"to\": {}, \"samples\": {}, \"inside\": {}",
-                       json_string(options.mesh.path), json_string(display.name.view()),
-                       json_string(options.delivery.to), samples, voxels);
+                      std::size_t voxels, const FrameMaker& maker) {
+    return fmt::format(
+        "\"mesh\": {}, \"display\": {}, \"to\": {}, \"samples\": {}, \"inside\": {}, \"light_settings\": {}, "
+        "\"dimmed_to\": {:.4f}",
+        json_string(options.mesh.path), json_string(display.name.view()), json_string(options.delivery.to), samples,
+        voxels, light_settings_json(options.light), maker.dimmed_to());
+}
+
+/// Where the display's supply does not give what was asked for.
+void print_dimming(const DisplayDescription& display, const FrameMaker& maker) {
+    if (maker.dimmed_to() == 1.0f) return;
+    fmt::print("light: dimmed to {:.0f} %, so that it draws no more than the {:g} mA of the display's supply\n",
+               100.0f * maker.dimmed_to(), display.power.limit_ma);
 }
 
 Expected<void> show_still(const ShowOptions& options, const transport::Address& address,
@@ -73,7 +82,7 @@ Expected<void> show_still(const ShowOptions& options, const transport::Address& 
     if (!delivery) return tl::unexpected(delivery.error());
     if (to.json) {
         fmt::print("{{{}, \"bytes_raw\": {}, \"bytes_sent\": {}, \"two_way\": {}, {}}}\n",
-                   head_json(options, display, frame_pixels(display), voxels), delivery->session.bytes_raw,
+                   head_json(options, display, frame_pixels(display), voxels, maker), delivery->session.bytes_raw,
                    delivery->session.bytes_sent, address.kind != transport::AddressKind::File,
                    light_json(to, delivery->light));
         return {};
@@ -82,6 +91,7 @@ Expected<void> show_still(const ShowOptions& options, const transport::Address& 
                thousands(frame_pixels(display)));
     fmt::print("sent to {}: {} bytes as {}\n", to.to, thousands(delivery->session.bytes_raw),
                thousands(delivery->session.bytes_sent));
+    print_dimming(display, maker);
     print_light(options, delivery->light);
     return {};
 }
@@ -102,7 +112,7 @@ Expected<void> show_spinning(const ShowOptions& options, const transport::Addres
             positions[i] = {axis.x + c * from.x - s * from.y, axis.y + s * from.x + c * from.y, mesh.positions[i].z};
         }
         Expected<void> made = maker.voxelize(positions);
-        if (made) made = maker.paint(frame);
+        if (made) made = maker.paint(frame, static_cast<std::uint32_t>(moment.number));
         if (!made) broken = made.error();
         return made.has_value();
     };
@@ -112,13 +122,14 @@ Expected<void> show_spinning(const ShowOptions& options, const transport::Addres
     if (!delivery) return tl::unexpected(delivery.error());
     const std::size_t voxels = maker.volume().count();
     if (to.json) {
-        fmt::print("{{{}, \"two_way\": {}, {}, {}}}\n", head_json(options, display, frame_pixels(display), voxels),
-                   address.kind != transport::AddressKind::File, stream_json(*delivery),
-                   light_json(to, delivery->light));
+        fmt::print(
+            "{{{}, \"two_way\": {}, {}, {}}}\n", head_json(options, display, frame_pixels(display), voxels, maker),
+            address.kind != transport::AddressKind::File, stream_json(*delivery), light_json(to, delivery->light));
     } else {
         fmt::print("{}: {} of {} samples were inside at the end\n", display.name.view(), thousands(voxels),
                    thousands(frame_pixels(display)));
         print_stream(*delivery);
+        print_dimming(display, maker);
         print_light(options, delivery->light);
     }
     return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();
@@ -131,8 +142,13 @@ Expected<void> show(const ShowOptions& options) {
     const Expected<transport::Address> address = transport::parse_address(to.to);
     if (!address) return fail("--to: " + address.error().message);
     if (const auto possible = check_delivery(to, *address, options.mesh.path); !possible) return possible;
+    if (!options.spin_rpm) {
+        if (const auto possible = check_still(options.light); !possible) return possible;
+    }
     const Expected<DisplayFile> display = load_display(options.display);
     if (!display) return tl::unexpected(display.error());
+    const Expected<ChosenLight> light = choose_light(options.light, *display);
+    if (!light) return tl::unexpected(light.error());
     const auto color = host::parse_color(options.color);
     if (!color) return fail("--color: " + color.error().message);
     if (const auto fits = check_display_fits(*display); !fits) return fits;
@@ -146,10 +162,8 @@ Expected<void> show(const ShowOptions& options) {
     if (!input) return tl::unexpected(input.error());
     const bool turns = options.spin_rpm.has_value();
     if (const auto fitted = fit_to_display(input->mesh, *display, options.mesh.path, turns); !fitted) return fitted;
-    const auto maker = FrameMaker::make(
-        *display, input->mesh, options.mesh.path, **color,
-        {.light = {.mode = options.light == "uniform" ? host::LightMode::Uniform : host::LightMode::Bright},
-         .resampled = options.sampling == "cartesian"});
+    const auto maker = FrameMaker::make(*display, input->mesh, options.mesh.path, **color,
+                                        {.light = light->settings, .resampled = options.sampling == "cartesian"});
     if (!maker) return tl::unexpected(maker.error());
     const auto show_it = options.spin_rpm ? show_spinning : show_still;
     return show_it(options, *address, *display, input->mesh, **maker, png ? &*png : nullptr);
