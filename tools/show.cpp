@@ -35,6 +35,9 @@ void print_light(const ShowOptions& show, const std::optional<LightSeen>& light)
     if (show.light.mode == "uniform") {
         fmt::print("brightness: even; of the samples inside, each voxel has one lit for each panel that passes it\n");
     }
+    if (show.light.mode == "even") {
+        fmt::print("brightness: even; each sample is as bright as the space it stands for is large\n");
+    }
     if (!options.png.empty()) {
         fmt::print("picture: {}, {:.0f} % of it is the object\n", options.png, 100.0 * light->picture_covered);
     }
