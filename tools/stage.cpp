@@ -79,6 +79,9 @@ void print_light(const StageOptions& options, const Stage& stage, const std::opt
     if (options.light.mode == "uniform") {
         fmt::print("brightness: even; of the samples inside, each voxel has one lit for each panel that passes it\n");
     }
+    if (options.light.mode == "even") {
+        fmt::print("brightness: even; each sample is as bright as the space it stands for is large\n");
+    }
     if (!options.delivery.png.empty()) {
         fmt::print("picture: {}, {:.0f} % of it is the object\n", options.delivery.png, 100.0 * light->picture_covered);
     }

@@ -67,7 +67,7 @@ TEST_CASE("even light of a rotor is even from the axis to the rim, and the large
         const std::size_t first = display.panels[0].offset_mm > width ? 2 : display.panels[0].offset_mm > 0.0 ? 1 : 0;
         const std::size_t last = even.size() - 2;
         REQUIRE(last > first + 3);
-        CHECK(ratio(even, first, last) < 1.1);
+        CHECK(ratio(even, first, last) < 1.2);  // 8 LEDs a ring, of which one may stand on its border
         CHECK(ratio(bright, first, last) > 3.0);
         CHECK(std::ranges::max(even_pixel_gains(display)) == 1.0f);
         CHECK(std::ranges::min(even_pixel_gains(display)) > 0.0f);
@@ -81,7 +81,7 @@ TEST_CASE("even light counts the panels that pass: where two of them do, each gi
     display.cycles_per_second = 10.0;
     display.panel_count = 2;
     display.panels[0] = {.columns = 200, .rows = 3};
-    display.panels[1] = {.columns = 80, .rows = 2, .lift_mm = 0.5, .angle_deg = 90.0, .tilt_deg = 20.0};
+    display.panels[1] = {.columns = 80, .rows = 2, .lift_mm = -0.5, .angle_deg = 90.0, .tilt_deg = 20.0};
     const std::vector<float> gains = even_pixel_gains(display);
     REQUIRE(gains.size() == 200 * 3 + 80 * 2);
     const auto at = [&](std::uint32_t column) { return static_cast<double>(gains[200 + column]); };  // panel 0, row 1
