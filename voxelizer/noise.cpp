@@ -114,4 +114,12 @@ float simplex_noise(const glm::vec3& point) {
     return kSimplexScale * sum;
 }
 
+void perlin_noise(std::span<const glm::vec3> points, std::span<float> values) {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = perlin_noise(points[i]);
+}
+
+void simplex_noise(std::span<const glm::vec3> points, std::span<float> values) {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = simplex_noise(points[i]);
+}
+
 }  // namespace xorvox

@@ -1,6 +1,8 @@
 // Noise: gradient noise in three dimensions. Same bits on every machine; any number of threads.
 #pragma once
 
+#include <span>
+
 #include <glm/vec3.hpp>
 
 namespace xorvox {
@@ -14,5 +16,9 @@ float perlin_noise(const glm::vec3& point);
 /// continuous): smooth with three continuous derivatives, within ±1, mean about 0, features somewhat smaller than those
 /// of perlin_noise and less aligned with the axes. 0 where a coordinate is beyond ±2^22 or no number.
 float simplex_noise(const glm::vec3& point);
+
+/// The same for many points. `values` has as many entries.
+void perlin_noise(std::span<const glm::vec3> points, std::span<float> values);
+void simplex_noise(std::span<const glm::vec3> points, std::span<float> values);
 
 }  // namespace xorvox
