@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "driver/display/description.h"
+#include "sim/pixel_light.h"
 
 namespace xorvox::sim {
 
@@ -22,12 +23,14 @@ struct Flash {
 
 /// Everything that was lit in one cycle.
 struct LightField {
-    PixelFormat format = PixelFormat::Mono1;  ///< Of the codes.
-    std::uint8_t brightness = 255;            ///< By which all light is dimmed, of 255.
+    PixelLight pixels;              ///< What the codes mean.
+    std::uint8_t brightness = 255;  ///< By which all light is dimmed, of 255.
     std::vector<Flash> flashes;
 
     /// Linear, 0 … 1 per channel, brightness applied.
-    glm::vec3 light(const Flash& flash) const;
+    glm::vec3 light(const Flash& flash) const {
+        return pixels.of(flash.code) * (static_cast<float>(brightness) / 255.0f);
+    }
 };
 
 /// How a display can be put together wrongly; faults for tests. Nothing by default. Of free points, which have one
@@ -41,14 +44,14 @@ struct Misbuild {
     std::int32_t phase_slices = 0;
 };
 
-/// Lights every pixel of `page` (frame_bytes(display) in scan-out order, or empty: dark) that is not zero, at the place
-/// that driver/display/description.h gives it, to about 1e-12 of the display's size. A plane that is lit both ways
-/// flashes once a slice, as its two flashes are one place. Dark pixels cost next to nothing. `display` must be valid
-/// (validate_display). Throws std::bad_alloc.
+/// Lights every pixel of `page` (frame_bytes(display) in scan-out order, or empty: dark) of whose code a bit that is
+/// shown is set, at the place that driver/display/description.h gives it, to about 1e-12 of the display's size. A plane
+/// that is lit both ways flashes once a slice, as its two flashes are one place. Dark pixels cost next to nothing.
+/// `display` must be valid (validate_display). Throws std::bad_alloc.
 LightField expose(const DisplayDescription& display, std::span<const std::byte> page, std::uint8_t brightness,
                   const Misbuild& misbuild = {});
 
-/// How many pixels of `page` (as for expose()) are not zero.
+/// How many pixels of `page` (as for expose()) are lit.
 std::size_t count_lit(const DisplayDescription& display, std::span<const std::byte> page);
 
 /// Height of the plane of a stack or of a swept plane in the middle of slice `slice`, or as long before and after it as

@@ -26,7 +26,7 @@ namespace xorvox::sim {
 /// in a BitVolume.
 struct SampleCode {
     std::uint64_t sample = 0;
-    std::uint32_t code = 0;  ///< Of its pixel; not 0.
+    std::uint32_t code = 0;  ///< Of its pixel; it has bits set that are shown.
 };
 
 /// What is seen at one place in one cycle.

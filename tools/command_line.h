@@ -21,6 +21,7 @@ struct AllOptions {
     InfoOptions info;
     VoxelizeOptions voxelize;
     ShowOptions show;
+    PlayOptions play;
     SimOptions sim;
     BenchOptions bench;
     BenchDisplayOptions bench_display;
@@ -45,8 +46,9 @@ Command bench_command(CLI::App& program, AllOptions& options);
 /// The lines below an `Examples:` at the end of a command's help.
 void examples(CLI::App& app, const std::string& text);
 
-/// The mesh and how it is read; add_strict() the refusal of open ones.
+/// The mesh, add_reading() how it is read, and add_strict() the refusal of open ones.
 void add_mesh(CLI::App& app, MeshOptions& mesh);
+void add_reading(CLI::App& app, MeshOptions& mesh);
 void add_strict(CLI::App& app, MeshOptions& mesh);
 
 /// "64" into a number of things, at most `most`. A CLI::ValidationError says what is wrong; so below.

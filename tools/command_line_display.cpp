@@ -1,6 +1,7 @@
 // The commands about displays: show, sim, displays, validate, plan, pattern and control.
 #include <fmt/format.h>
 
+#include "tools/color_choice.h"
 #include "tools/command_line.h"
 
 namespace xorvox::tools {
@@ -56,16 +57,15 @@ CLI::Option* add_positive(CLI::App& app, const std::string& name, std::function<
         ->type_name(type);
 }
 
-Command show_command(CLI::App& program, ShowOptions& options) {
-    CLI::App& app = *program.add_subcommand("show", "Show a mesh on a display, or on a simulated one");
-    add_mesh(app, options.mesh);
+/// What is shown, on what and how; for show and play.
+void add_stage(CLI::App& app, StageOptions& options) {
     add_strict(app, options.mesh);
     add_display(app, options.display);
-    app.add_option(
-           "--color", options.color,
-           "constant:NAME, constant:#rrggbb, gradient (the default), gradient:NAME,NAME from bottom to top, noise, "
-           "noise:SCALE or a formula, 'expr: hsv(noise(8*p), 1, z)'; NAME is a colour as in CSS, and a wrong one lists "
-           "them all")
+    app.add_option("--color", options.color,
+                   "Which colour each lit voxel has (default gradient): " + color_kinds() +
+                       ". COLOR is a name as in CSS or #rrggbb, and a wrong one lists them all; own is the model's own "
+                       "colours. "
+                       "docs/color.md shows each kind")
         ->type_name("KIND:ARGS");
     app.add_option(
            "--light", options.light,
@@ -79,22 +79,66 @@ Command show_command(CLI::App& program, ShowOptions& options) {
            "first, which the samples then take the nearest voxel of")
         ->check(CLI::IsMember({"native", "cartesian"}).description(""))
         ->type_name("native|cartesian");
-    CLI::Option* const spin =
-        app.add_option_function<std::string>(
-               "--spin", [&options](const std::string& text) { options.spin_rpm = parse_positive("--spin", text); },
-               "Turn the model about its upright axis so many times a minute, a new frame each "
-               "time the display can show one, and tell how steadily they came")
-            ->type_name("RPM");
+    add_delivery(app, options.delivery);
+}
+
+Command show_command(CLI::App& program, ShowOptions& options) {
+    CLI::App& app = *program.add_subcommand("show", "Show a mesh on a display, or on a simulated one");
+    add_mesh(app, options.stage.mesh);
+    add_stage(app, options.stage);
+    CLI::Option* const spin = add_positive(
+        app, "--spin", [&options](double rpm) { options.spin_rpm = rpm; }, "RPM",
+        "Turn the model about its upright axis so many times a minute, a new frame each time the display can show one, "
+        "and tell how steadily they came");
     add_positive(
         app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
         "How long to spin (default 10)")
         ->needs(spin);
-    add_delivery(app, options.delivery);
     examples(app,
              "  xorvox show bunny.ply --up y --display vortex --png bunny.png\n"
              "  xorvox show bunny.ply --up y --display cube16-ws2812 --color constant:orange --to tcp:127.0.0.1:7777\n"
              "  xorvox show bunny.ply --up y --display vortex --spin 6 --seconds 20 --to tcp:127.0.0.1:7777");
     return {&app, [&options] { return show(options); }};
+}
+
+Command play_command(CLI::App& program, PlayOptions& options) {
+    CLI::App& app = *program.add_subcommand(
+        "play", "Show what moves: a model by keyframes, a sequence of files, an animation; see docs/play.md");
+    app.add_option("files", options.files, "A model, or several that are shown one after the other")
+        ->required()
+        ->type_name("FILE");
+    add_reading(app, options.stage.mesh);
+    add_stage(app, options.stage);
+    CLI::Option* const timeline =
+        app.add_option("--timeline", options.timeline, "How it moves: keyframes in a file")->type_name("FILE.toml");
+    app.add_option("--motion", options.motion,
+                   "The same as typed: how the model moves and turns, as in 'at=0; at=4 turn=0,0,360 move=0,0,10'")
+        ->excludes(timeline)
+        ->type_name("KEYFRAMES");
+    app.add_option("--camera", options.camera,
+                   "How the display moves through the scene, as in 'at=0; at=5 center=10,0,0 zoom=3 ease=smooth'")
+        ->excludes(timeline)
+        ->type_name("KEYFRAMES");
+    add_positive(
+        app, "--spin", [&options](double rpm) { options.spin_rpm = rpm; }, "RPM",
+        "Turn the model about its upright axis so many times a minute");
+    add_positive(
+        app, "--fps", [&options](double fps) { options.stage.files_per_second = fps; }, "N",
+        "Files, or frames of a file that has no time of its own, a second (default 10)");
+    add_positive(
+        app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
+        "How long to play (default: until all has moved once)");
+    app.add_flag("--loop", options.loop, "Begin anew at the end, until interrupted or for --seconds");
+    app.parse_complete_callback([&options] {
+        if (options.files.empty()) return;
+        options.stage.mesh.path = options.files.front();
+        options.stage.following.assign(options.files.begin() + 1, options.files.end());
+    });
+    examples(app,
+             "  xorvox play bunny.ply --up y --display vortex --motion 'at=0; at=4 turn=0,0,360' --png last.png\n"
+             "  xorvox play walk*.obj --fps 12 --loop --display cube16-ws2812 --to tcp:127.0.0.1:7777\n"
+             "  xorvox play bunny.ply --up y --display vortex --timeline flight.toml --to tcp:127.0.0.1:7777");
+    return {&app, [&options] { return play(options); }};
 }
 
 Command sim_command(CLI::App& program, SimOptions& options) {
@@ -202,10 +246,10 @@ Command control_command(CLI::App& program, ControlOptions& options) {
 }  // namespace
 
 std::vector<Command> display_commands(CLI::App& program, AllOptions& options) {
-    return {show_command(program, options.show),         sim_command(program, options.sim),
-            displays_command(program, options.displays), validate_command(program, options.validate),
-            plan_command(program, options.plan),         pattern_command(program, options.pattern),
-            control_command(program, options.control)};
+    return {show_command(program, options.show),         play_command(program, options.play),
+            sim_command(program, options.sim),           displays_command(program, options.displays),
+            validate_command(program, options.validate), plan_command(program, options.plan),
+            pattern_command(program, options.pattern),   control_command(program, options.control)};
 }
 
 }  // namespace xorvox::tools

@@ -167,6 +167,13 @@ Section scan_section(const DisplayDescription& display) {
     return section;
 }
 
+Section light_section(const DisplayDescription& display) {
+    Section section{"light", {}};
+    section.add("response", name_of(display::kResponseNames, display.light.response));
+    if (display.light.response == Response::Gamma) section.add("gamma", display.light.gamma);
+    return section;
+}
+
 Section power_section(const DisplayDescription& display) {
     Section section{"power", {}};
     section.add_known("led_ma", display.power.led_ma);
@@ -220,6 +227,7 @@ std::vector<Section> sections_of(const DisplayDescription& display) {
     }
     sections.push_back(sync_section(display));
     sections.push_back(scan_section(display));
+    sections.push_back(light_section(display));
     sections.push_back(power_section(display));
     sections.push_back(frame_section(display));
     std::erase_if(sections, [](const Section& section) { return section.fields.empty(); });

@@ -12,13 +12,16 @@ namespace xorvox {
 /// along each axis. The permutation is this project's own. 0 where a coordinate is beyond ±2^22 or no number.
 float perlin_noise(const glm::vec3& point);
 
+/// The same at many points, `values` has as many entries: up to three times as fast where neighbours in the row are so
+/// near to each other that most are in one cell of whole coordinates.
+void perlin_noise(std::span<const glm::vec3> points, std::span<float> values);
+
 /// Simplex noise (K. Perlin, "Noise Hardware", 2001, with the tetrahedra's corners reaching √½ so that it is
 /// continuous): smooth with three continuous derivatives, within ±1, mean about 0, features somewhat smaller than those
 /// of perlin_noise and less aligned with the axes. 0 where a coordinate is beyond ±2^22 or no number.
 float simplex_noise(const glm::vec3& point);
 
-/// The same for many points. `values` has as many entries.
-void perlin_noise(std::span<const glm::vec3> points, std::span<float> values);
+/// The same at many points. `values` has as many entries.
 void simplex_noise(std::span<const glm::vec3> points, std::span<float> values);
 
 }  // namespace xorvox

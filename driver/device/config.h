@@ -80,12 +80,7 @@ constexpr CurrentConfig current_config(const DisplayDescription& display) {
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         config.panels[p] = {display.panels[p].columns, display.panels[p].rows};
     }
-    // The LEDs of a plane of a stack are lit while it is its turn, those of a moving panel all the time.
-    double duty = 1.0 / display.scan.row_groups;
-    if (display.kind == DisplayKind::StackedPlanes && !at_once && display.scan.driver != DriverChip::Dlp) {
-        duty /= display.slices;
-    }
-    config.most_light = static_cast<std::uint8_t>(std::min(255.0, 255.0 * display.power.max_duty / duty));
+    config.most_light = most_brightness(display);
     return config;
 }
 

@@ -132,6 +132,12 @@ void write_driving(Writer& out, const DisplayDescription& display) {
         out.line(fmt::format("display.scan.color_order = {{'{}', '{}', '{}'}};", order[0], order[1], order[2]));
     }
 
+    const Light& light = display.light;
+    if (light.response != Light{}.response) {
+        out.named("light.response", "Response", light.response, display::kResponseNames);
+    }
+    out.field_unless("light.gamma", light.gamma, Light{}.gamma);
+
     const Power none;
     out.field_unless("power.led_ma", display.power.led_ma, none.led_ma);
     out.field_unless("power.max_duty", display.power.max_duty, none.max_duty);

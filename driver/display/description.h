@@ -322,6 +322,18 @@ constexpr bool keeps_light(const DisplayDescription& display) {
 constexpr std::uint32_t shown_bit_planes(const DisplayDescription& display) {
     return display.scan.bit_planes == 0 ? bits_per_channel(display.format) : display.scan.bit_planes;
 }
+/// The part of the time for which an LED is lit that is fully on, at full brightness: rows take turns, and so do the
+/// planes of a stack, but for those of a projector.
+constexpr double full_duty(const DisplayDescription& display) {
+    const double duty = 1.0 / display.scan.row_groups;
+    const bool planes_take_turns = display.kind == DisplayKind::StackedPlanes && !keeps_light(display);
+    return planes_take_turns && display.scan.driver != DriverChip::Dlp ? duty / display.slices : duty;
+}
+/// The most brightness, of 255, that power.max_duty allows an LED that is fully on; 0: it would never be lit.
+constexpr std::uint8_t most_brightness(const DisplayDescription& display) {
+    const double most = 255.0 * display.power.max_duty / full_duty(display);
+    return static_cast<std::uint8_t>(most < 255.0 ? most : 255.0);
+}
 /// Bytes of one row of `panel`.
 constexpr std::size_t row_bytes(const Panel& panel, PixelFormat format) {
     return (std::size_t{panel.columns} * bits_per_pixel(format) + 7) / 8;

@@ -56,6 +56,13 @@ inline constexpr Named<DriverChip> kDriverNames[] = {
     {DriverChip::Dlp, "dlp", "Dlp"},
 };
 
+inline constexpr Named<Response> kResponseNames[] = {
+    {Response::Linear, "linear", "Linear"},
+    {Response::Gamma, "gamma", "Gamma"},
+    {Response::Srgb, "srgb", "Srgb"},
+    {Response::Cie1931, "cie1931", "Cie1931"},
+};
+
 inline constexpr Named<bool> kBitOrderNames[] = {{true, "msb-first", "true"}, {false, "lsb-first", "false"}};
 inline constexpr Named<bool> kRegisterOrderNames[] = {{false, "pixels-first", "false"}, {true, "layers-first", "true"}};
 

@@ -25,6 +25,7 @@ public:
         check_panels();
         check_sync();
         check_scan();
+        range("light.gamma", display_.light.gamma, kGamma);
         known("power.led_ma", display_.power.led_ma, kLedMilliamperes);
         range("power.max_duty", display_.power.max_duty, kDuty);
         known("power.limit_ma", display_.power.limit_ma, kLimitMilliamperes);
@@ -77,6 +78,7 @@ private:
         named("motion.profile", display_.motion.profile, kProfileNames);
         named("sync.index", display_.sync.index, kIndexNames);
         named("scan.driver", display_.scan.driver, kDriverNames);
+        named("light.response", display_.light.response, kResponseNames);
         const std::size_t most = is(DisplayKind::RotatingPanel) ? kMaxPanels : 1;
         if (display_.panel_count < 1 || display_.panel_count > most) {
             refuse("panel", fmt::format("found {} panels; allowed on {}: {}", display_.panel_count,

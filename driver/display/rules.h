@@ -37,6 +37,7 @@ inline constexpr Range kRowGroups{1, 4096, true};
 inline constexpr Range kBitPlanes{0, 8, true};
 inline constexpr Range kStrings{1, 255, true};
 inline constexpr Range kPlanesPerFrame{1, 24, true};
+inline constexpr Range kGamma{1, 4};
 /// Currents that are known: the device counts whole microamperes, 2^24 of an LED at most.
 inline constexpr Range kLedMilliamperes{0.001, 1e4};
 inline constexpr Range kLimitMilliamperes{0.001, 1e9};
@@ -69,5 +70,8 @@ std::vector<Violation> find_wrong_values(const DisplayDescription& display);
 /// The contradictions in a description that has no wrong values. `wiring_given`: no two panels may have the same
 /// connector and chain position.
 std::vector<Violation> find_contradictions(const DisplayDescription& display, bool wiring_given);
+
+/// Adds those in how it is driven: sync, scan, light and power.
+void find_driving_contradictions(const DisplayDescription& display, std::vector<Violation>& violations);
 
 }  // namespace xorvox::display

@@ -48,6 +48,7 @@ constexpr Key kDisplayKeys[] = {
     {"motion", kStroke, kStroke},
     {"sync"},
     {"scan"},
+    {"light"},
     {"power"},
     {"panel", kAllKinds},
 };
@@ -80,6 +81,8 @@ constexpr Key kSyncKeys[] = {
 constexpr Key kScanKeys[] = {{"driver"},           {"pixel_clock_hz"}, {"latch_ns"},   {"min_on_ns"},  {"rise_ns"},
                              {"fall_ns"},          {"row_groups"},     {"bit_planes"}, {"strings"},    {"bit_order"},
                              {"planes_per_frame"}, {"register_order"}, {"serpentine"}, {"color_order"}};
+
+constexpr Key kLightKeys[] = {{"response"}, {"gamma"}};
 
 constexpr Key kPowerKeys[] = {{"led_ma"}, {"max_duty"}, {"limit_ma"}};
 
@@ -123,6 +126,7 @@ private:
         read_table("motion", kMotionKeys, &Reader::read_motion);
         read_table("sync", kSyncKeys, &Reader::read_sync);
         read_table("scan", kScanKeys, &Reader::read_scan);
+        read_table("light", kLightKeys, &Reader::read_light);
         read_table("power", kPowerKeys, &Reader::read_power);
         read_panels();
         read_assumed();
@@ -228,6 +232,19 @@ private:
                               fmt::format("found {}; allowed: each of r, g and b once", display::in_quotes(order)));
         }
         std::ranges::copy(order, scan.color_order.begin());
+    }
+
+    void read_light(TomlTable& table) {
+        Light& light = display_.light;
+        table.choice("response", display::kResponseNames, light.response);
+        const TomlNode* response = table.find("response");
+        const bool is_gamma = light.response == Response::Gamma;
+        const bool misspelt = response != nullptr && is_spoilt({"light.response", {}, "", {}});
+        if (table.find("gamma") != nullptr && !is_gamma && !misspelt) {
+            return table.note("gamma", fmt::format("found with response \"{}\"; allowed: with \"gamma\" alone",
+                                                   name_of(display::kResponseNames, light.response)));
+        }
+        table.number("gamma", light.gamma);
     }
 
     void read_power(TomlTable& table) {

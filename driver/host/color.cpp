@@ -87,8 +87,8 @@ public:
     Noise(NoiseFunction noise, float scale, float spread, std::span<const glm::dvec3> stops)
         : noise_(noise), scale_(scale), spread_(spread), ramp_(stops) {}
     void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override {
-        std::array<glm::vec3, 64> scaled;
-        std::array<float, 64> values;
+        std::array<glm::vec3, 128> scaled;
+        std::array<float, 128> values;
         for (std::size_t at = 0; at < points.size(); at += scaled.size()) {
             const std::size_t count = std::min(scaled.size(), points.size() - at);
             for (std::size_t i = 0; i < count; ++i) scaled[i] = points[at + i] * scale_;
@@ -116,7 +116,7 @@ private:
 };
 
 Expected<std::unique_ptr<ColorField>> make_constant(std::string_view color) {
-    const auto linear = parse_one_color(color);
+    const auto linear = parse_color_name(color);
     if (!linear) return tl::unexpected<Error>(linear.error());
     return std::make_unique<Constant>(*linear);
 }

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "driver/host/color_list.h"
 #include "voxelizer/error.h"
 
 namespace xorvox::host {

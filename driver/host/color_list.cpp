@@ -30,7 +30,7 @@ constexpr Name kNames[] = {
 
 }  // namespace
 
-Expected<glm::dvec3> parse_one_color(std::string_view text) {
+Expected<glm::dvec3> parse_color_name(std::string_view text) {
     if (text.starts_with('#')) {
         std::uint32_t rrggbb = 0;
         const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), rrggbb, 16);
@@ -51,7 +51,7 @@ Expected<std::vector<glm::dvec3>> parse_colors(std::string_view text, std::size_
     std::vector<glm::dvec3> colors;
     for (std::size_t at = 0; at <= text.size();) {
         const std::size_t comma = std::min(text.find(',', at), text.size());
-        const auto color = parse_one_color(text.substr(at, comma - at));
+        const auto color = parse_color_name(text.substr(at, comma - at));
         if (!color) return tl::unexpected<Error>(color.error());
         if (colors.size() == kMostColors)
             return fail(fmt::format("{}: at most {} colours can be used", of, kMostColors));

@@ -14,7 +14,7 @@ namespace xorvox::host {
 inline constexpr std::size_t kMostColors = 64;
 
 /// The linear light of a colour: #rrggbb, or one of the names of HTML 4 and some more of CSS; messages list them.
-Expected<glm::dvec3> parse_one_color(std::string_view text);
+Expected<glm::dvec3> parse_color_name(std::string_view text);
 
 /// "COLOR,COLOR,…": at least `least` colours, at most kMostColors. `of` is what messages begin with, as in
 /// "gradient:blue,gold".

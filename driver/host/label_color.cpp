@@ -6,17 +6,13 @@
 #include <utility>
 
 #include "driver/host/color_space.h"
+#include "voxelizer/volume_place.h"
 
 namespace xorvox::host {
 namespace {
 
 constexpr std::uint32_t kDistinctLabels = 255;
 constexpr float kMostLabel = 0x1p24f;
-
-/// Of a clamped place, which is never negative.
-std::uint32_t nearest_whole(double x) {
-    return static_cast<std::uint32_t>(x + 0.5);
-}
 
 }  // namespace
 
@@ -57,9 +53,7 @@ LabelColor::LabelColor(std::shared_ptr<const SampledVolume> volume, const glm::d
 void LabelColor::evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const {
     const auto size = static_cast<std::uint32_t>(palette_.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::dvec3 place = place_.at(points[i]);
-        const std::size_t voxel =
-            volume_->index(nearest_whole(place.x), nearest_whole(place.y), nearest_whole(place.z));
+        const std::size_t voxel = nearest_voxel(*volume_, place_.at(points[i]));
         const auto label = static_cast<std::uint32_t>(volume_->values[voxel]);
         colors[i] = palette_[label < size ? label : repeats_ + (label - repeats_) % (size - repeats_)];
     }

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "driver/host/color.h"
-#include "driver/host/volume_place.h"
+#include "driver/host/volume_placement.h"
 #include "voxelizer/sampled_volume.h"
 
 namespace xorvox::host {
@@ -37,7 +37,7 @@ public:
 
 private:
     std::shared_ptr<const SampledVolume> volume_;
-    VolumePlace place_;
+    VolumePlacement place_;
     std::vector<glm::vec3> palette_;  ///< Of labels from 0 on; those beyond have one of the entries from repeats_ on.
     std::uint32_t repeats_ = 1;
 };

@@ -100,7 +100,10 @@ PatternLight paint_stairs(const DisplayDescription& display, std::span<std::byte
 PatternLight paint_all(const DisplayDescription& display, std::span<std::byte> frame) {
     std::uint32_t faintest = 0;
     for (std::uint32_t channel = 0; channel < channel_count(display.format); ++channel) {
-        faintest |= 1u << std::countr_zero(channel_mask(display.format, channel));
+        const std::uint32_t mask = channel_mask(display.format, channel);
+        const auto bits = static_cast<std::uint32_t>(std::popcount(mask));
+        const std::uint32_t hidden = bits - std::min(bits, shown_bit_planes(display));
+        faintest |= 1u << (static_cast<std::uint32_t>(std::countr_zero(mask)) + hidden);
     }
     return paint_pixels(display, frame, true, [&](const PatternPixel&) { return faintest; });
 }

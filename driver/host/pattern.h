@@ -20,7 +20,7 @@
 //                Free points: those farthest out along x in red, y in green, z in blue.
 //   wedge        All levels but dark: along the columns (of rotors, outwards from the axis) in the upper third, slice
 //                by slice in the middle, row by row below.
-//   all          Every pixel at its faintest code: on mono1 and rgb111, that is full light.
+//   all          Every pixel at its faintest code that is shown: on mono1 and rgb111, that is full light.
 //   planes       Moves: one bit of one channel in every pixel; red, green, blue, most significant bits first.
 //   lines        Moves: each row, then each column, of each panel; every slice alike.
 //   walk         Moves: one pixel, in the order of the wire.

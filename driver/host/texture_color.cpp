@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
+
+#include "voxelizer/volume_place.h"
 
 namespace xorvox::host {
 namespace {
@@ -53,12 +56,6 @@ glm::vec3 mix_colors(const SampledVolume& volume, const Neighbours& near) {
     return opaque > 0.0f ? sum / opaque : transparent_sum;
 }
 
-double mix_values(const SampledVolume& volume, const Neighbours& near) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 8; ++i) sum += double{near.weights[i]} * double{volume.values[near.voxels[i]]};
-    return sum;
-}
-
 }  // namespace
 
 TextureColor::TextureColor(std::shared_ptr<const SampledVolume> volume, const glm::dmat4& placement,
@@ -73,9 +70,9 @@ TextureColor::TextureColor(std::shared_ptr<const SampledVolume> volume, const gl
 
 void TextureColor::evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const {
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Neighbours near = neighbours(*volume_, place_.at(points[i]));
-        colors[i] = ramp_ ? ramp_->at(static_cast<float>((mix_values(*volume_, near) - least_) * per_span_))
-                          : mix_colors(*volume_, near);
+        const glm::dvec3 place = place_.at(points[i]);
+        colors[i] = ramp_ ? ramp_->at(static_cast<float>((value_between(*volume_, place) - least_) * per_span_))
+                          : mix_colors(*volume_, neighbours(*volume_, place));
     }
 }
 

@@ -58,6 +58,20 @@ TEST_CASE("displays says of each preset how many values are assumed", "[cli]") {
     CHECK_THAT(out, Contains("24 slices a turn, 1 bit (10 values assumed)\n") && Contains("(3 values assumed)\n"));
 }
 
+TEST_CASE("displays says what light a code gives", "[cli]") {
+    const Folder folder;
+    std::string text(kFine);
+    text += "light.response = \"gamma\"\n";
+    const std::string file = folder.file("mine.toml", text);
+    CHECK_THAT(run_program({"displays", file}).out, Contains("\nlight\n") &&
+                                                        Contains("response                   gamma\n") &&
+                                                        Contains("gamma                      2.2\n"));
+    CHECK_THAT(run_program({"displays", file, "--json"}).out,
+               Contains("\"light\": {\"response\": \"gamma\", \"gamma\": 2.2}"));
+    CHECK_THAT(run_program({"displays", "vortex", "--json"}).out, Contains("\"light\": {\"response\": \"linear\"}"));
+    CHECK_THAT(run_program({"displays", file, "--cpp"}).out, Contains("display.light.response = Response::Gamma;"));
+}
+
 TEST_CASE("what nobody knows of a display is null in JSON", "[cli]") {
     const std::string candle = run_program({"displays", "candle", "--json"}).out;
     CHECK_THAT(candle,

@@ -114,7 +114,7 @@ TEST_CASE("no pixel of a pattern's picture is black, neither light nor ground") 
 TEST_CASE("a picture that frames the display has all of its light in view, wherever it is") {
     const auto display = load_display("vortex");
     REQUIRE(display.has_value());
-    sim::LightField corner{display->format, 255, {}};
+    sim::LightField corner{sim::PixelLight(*display), 255, {}};
     corner.flashes.push_back({{150.0, 0.0, 70.0}, 0xff, 0});
     sim::PictureOptions options{.width = 320, .height = 240, .azimuth_deg = 0.0};
     const auto near = sim::render_perspective(*display, corner, options);

@@ -150,4 +150,6 @@ TEST_CASE("an LED is lit no longer than its duty allows") {
     display.scan.row_groups = 1;
     display.power.max_duty = 0.0625;
     CHECK(current_config(display).most_light == 127);
+    display.scan.driver = DriverChip::Dlp;
+    CHECK(current_config(display).most_light == 15);
 }

@@ -300,6 +300,24 @@ TEST_CASE("a duty below what the scan lights is refused") {
     CHECK_THAT(message(turning), Contains("a part of 0.24; allowed: at least that"));
 }
 
+TEST_CASE("a duty for which no brightness is faint enough is refused, and the least that is allowed is enough") {
+    auto display = rotor();
+    display.power.max_duty = 0.0039;
+    CHECK_THAT(message(display),
+               Contains("power.max_duty: found 0.0039, for which the least brightness, 1 of 255, is too"
+                        " much, so that the display would stay dark; allowed: at least 0.00393"));
+    display.power.max_duty = 0.00393;
+    check_fine(display);
+    // A layer of a cube is lit for an eighth of the time, and a row for a quarter of that.
+    display = stack();
+    display.slices = 8;
+    display.scan.row_groups = 4;
+    display.power.max_duty = 1.2e-4;
+    CHECK_THAT(message(display), Contains("allowed: at least 0.000123"));
+    display.power.max_duty = 1.23e-4;
+    check_fine(display);
+}
+
 TEST_CASE("half a turn needs a panel that comes to stand where it was") {
     auto display = rotor();
     display.sweep_deg = 180;

@@ -49,6 +49,9 @@ row_groups = 4
 bit_planes = 3
 bit_order = "lsb-first"
 color_order = "gbr"
+[light]
+response = "gamma"
+gamma = 1.85
 [power]
 led_ma = 1.5
 max_duty = 0.3
@@ -85,6 +88,8 @@ row_pitch_mm = 0.2
 [scan]
 driver = "dlp"
 planes_per_frame = 24
+[light]
+response = "cie1931"
 )",
     R"(name = "helix"
 kind = "helix"

@@ -56,6 +56,10 @@ TEST_CASE("what a description is driven with survives C++") {
     CHECK(kreisel.scan.bit_planes == 3);
     CHECK_FALSE(kreisel.scan.msb_first);
     CHECK(kreisel.scan.color_order == std::array{'g', 'b', 'r'});
+    CHECK(kreisel.light.response == Response::Gamma);
+    CHECK(kreisel.light.gamma == 1.85);
+    CHECK(displays::kSwept.light.response == Response::Cie1931);
+    CHECK(displays::kHelix.light.response == Response::Linear);
     CHECK(kreisel.power.led_ma == 1.5);
     CHECK(kreisel.power.max_duty == 0.3);
     CHECK(kreisel.power.limit_ma == 123.456);

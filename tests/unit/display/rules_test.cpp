@@ -118,6 +118,17 @@ TEST_CASE("each field of how a display is driven is checked") {
                }),
                Contains("scan.color_order: found \"rgg\""));
     CHECK_THAT(refused([](D& d) { d.scan.color_order = {'r', '\n', 'b'}; }), Contains("found \"r?b\""));
+    CHECK_THAT(refused([](D& d) { d.light.response = Response{4}; }),
+               Contains("light.response: found number 4; allowed: 0 (linear) to 3 (cie1931)"));
+    CHECK_THAT(refused([](D& d) {
+                   d.light = {Response::Gamma, 0.5};
+               }),
+               Contains("light.gamma: found 0.5; allowed: a number from 1 to 4"));
+    CHECK_THAT(refused([](D& d) { d.light = {Response::Gamma, std::nan("")}; }), Contains("light.gamma: found nan"));
+    CHECK_THAT(refused([](D& d) {
+                   d.light = {Response::Srgb, 1.8};
+               }),
+               Contains("light.gamma: found 1.8; allowed with response \"srgb\": 2.2"));
     CHECK_THAT(refused([](D& d) { d.power.led_ma = -1; }), Contains("power.led_ma: found -1"));
     CHECK_THAT(refused([](D& d) { d.power.max_duty = 0; }), Contains("power.max_duty: found 0"));
     CHECK_THAT(refused([](D& d) { d.power.limit_ma = std::nan(""); }), Contains("power.limit_ma: found nan"));

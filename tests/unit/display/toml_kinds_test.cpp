@@ -210,6 +210,37 @@ color_order = "bgr"
     CHECK(power.limit_ma == 10000.0);
 }
 
+TEST_CASE("what light a code gives is read, and is in proportion to it where nothing is said") {
+    CHECK(parsed(kUneven).light.response == Response::Linear);
+    CHECK(parsed(kUneven + "[light]\n").light.response == Response::Linear);
+    CHECK(parsed(kUneven + "[light]\nresponse = \"linear\"\n").light.response == Response::Linear);
+    CHECK(parsed(kUneven + "[light]\nresponse = \"srgb\"\n").light.response == Response::Srgb);
+    CHECK(parsed(kUneven + "[light]\nresponse = \"cie1931\"\n").light.response == Response::Cie1931);
+    CHECK(parsed(kUneven + "[light]\nresponse = \"gamma\"\n").light.gamma == 2.2);
+    const Light light = parsed(kSwept + "[light]\ngamma = 1.8\nresponse = \"gamma\"\n").light;
+    CHECK(light.response == Response::Gamma);
+    CHECK(light.gamma == 1.8);
+}
+
+TEST_CASE("light that is not understood is refused with its line") {
+    const std::string lines = std::to_string(std::ranges::count(kSwept, '\n') + 2);
+    const auto line = [&](const std::string& light) { return message(kSwept + "[light]\n" + light + "\n"); };
+    CHECK_THAT(line("response = \"cie\""), Contains("line " + lines +
+                                                    ": light.response: found the text \"cie\"; allowed: "
+                                                    "\"linear\", \"gamma\", \"srgb\" or \"cie1931\""));
+    CHECK_THAT(line("response = 2.2"), Contains("light.response: found the number 2.2"));
+    CHECK_THAT(line("response = \"gamma\"\ngamma = 0.9"),
+               Contains("light.gamma: found 0.9; allowed: a number from 1 to 4"));
+    CHECK_THAT(line("response = \"gamma\"\ngamma = 4.1"), Contains("light.gamma: found 4.1"));
+    CHECK_THAT(line("response = \"gamma\"\ngamma = nan"), Contains("light.gamma: found nan"));
+    CHECK_THAT(
+        line("gamma = 2.2"),
+        Contains("line " + lines + ": light.gamma: found with response \"linear\"; allowed: with \"gamma\" alone"));
+    CHECK_THAT(line("response = \"srgb\"\ngamma = 9"), Contains("light.gamma: found with response \"srgb\""));
+    CHECK(find_mistakes(kSwept + "[light]\nresponse = \"gama\"\ngamma = 2\n").size() == 1);
+    CHECK_THAT(line("brightness = 1"), Contains("unknown key \"light.brightness\""));
+}
+
 TEST_CASE("keys of tables are refused like others, with table and line") {
     CHECK_THAT(message(with(kSwept, "dead_zone", "deadzone")),
                Contains("line 10: unknown key \"motion.deadzone\"; the nearest one is \"dead_zone\" of stroke_mm"));

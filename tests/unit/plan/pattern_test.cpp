@@ -320,6 +320,14 @@ TEST_CASE("all lights every pixel at its faintest", "[pattern]") {
     }
 }
 
+TEST_CASE("the faintest light is that of the bits that are shown", "[pattern]") {
+    DisplayDescription display = rotor(PixelFormat::Rgb332);
+    for (const auto& [planes, code] : {std::pair{2, 0x49u}, std::pair{1, 0x92u}}) {
+        display.scan.bit_planes = static_cast<std::uint8_t>(planes);
+        CHECK(lit(display, Pattern::All)[0].code == code);
+    }
+}
+
 TEST_CASE("an unknown pattern is refused with a list", "[pattern]") {
     CHECK(find_pattern("walk")->pattern == Pattern::Walk);
     const auto unknown = find_pattern("wlak");

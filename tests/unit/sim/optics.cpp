@@ -296,6 +296,46 @@ TEST_CASE("brightness dims light, not codes") {
     CHECK(field.flashes[0].code == 0xff);
 }
 
+TEST_CASE("light follows the response of the display") {
+    const auto light_of = [](Light light, std::uint32_t code) {
+        DisplayDescription display = stack_of(1, 1, 1, PixelFormat::Rgb888);
+        display.light = light;
+        std::vector<std::byte> page = dark_page(display);
+        set_pixel(display, page, {}, code | 0xff00);
+        const sim::LightField field = sim::expose(display, page, 255);
+        CHECK(field.light(field.flashes.at(0)).y == 1.0f);
+        CHECK(field.light(field.flashes.at(0)).z == 0.0f);
+        return static_cast<double>(field.light(field.flashes.at(0)).x);
+    };
+    CHECK(light_of({}, 51) == Approx(0.2));
+    CHECK(light_of({Response::Gamma, 2.0}, 51) == Approx(0.04));
+    CHECK(light_of({Response::Gamma, 2.2}, 128) == Approx(0.219520));
+    CHECK(light_of({Response::Srgb}, 128) == Approx(0.215861).epsilon(1e-5));
+    CHECK(light_of({Response::Srgb}, 5) == Approx(5.0 / 255 / 12.92));
+    // A lightness of 60 and of 4.
+    CHECK(light_of({Response::Cie1931}, 153) == Approx(0.281233).epsilon(1e-5));
+    CHECK(light_of({Response::Cie1931}, 10) == Approx(1000.0 / 255 / 903.2963).epsilon(1e-5));
+}
+
+TEST_CASE("bits that are not shown give no light") {
+    DisplayDescription display = stack_of(4, 1, 1, PixelFormat::Rgb332);
+    display.scan.bit_planes = 2;
+    std::vector<std::byte> page = dark_page(display);
+    set_pixel(display, page, {.column = 0}, 0b001'001'00);  // Only bits that are hidden: blue has two in all.
+    set_pixel(display, page, {.column = 1}, 0b011'101'01);
+    set_pixel(display, page, {.column = 3}, 0b111'000'00);
+    CHECK(sim::count_lit(display, page) == 2);
+    const sim::LightField field = sim::expose(display, page, 255);
+    REQUIRE(field.flashes.size() == 2);
+    CHECK(field.flashes[0].code == 0b011'101'01);
+    CHECK(glm::distance(field.light(field.flashes[0]), glm::vec3(1.0f / 3, 2.0f / 3, 1.0f / 3)) < 1e-6f);
+    CHECK(field.light(field.flashes[1]) == glm::vec3(1, 0, 0));
+    // The response is that of what is shown.
+    display.light = {Response::Gamma, 2.0};
+    const sim::LightField curved = sim::expose(display, page, 255);
+    CHECK(glm::distance(curved.light(curved.flashes[0]), glm::vec3(1.0f / 9, 4.0f / 9, 1.0f / 9)) < 1e-6f);
+}
+
 TEST_CASE("of a large dark page every lit pixel is found, and none beyond the row") {
     // Rows of 77 pixels end within a byte; the bits behind them are not pixels.
     const auto format = GENERATE(from_range(kPixelFormats));

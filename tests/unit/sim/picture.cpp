@@ -275,7 +275,8 @@ TEST_CASE("an orthographic view of nothing shows the empty display") {
 
 TEST_CASE("flashes at one place are one voxel in the mean of their light") {
     const DisplayDescription display = rotor_of(8, 4, 10);
-    sim::LightField field{PixelFormat::Rgb111, 255, {}};
+    sim::LightField field;
+    field.pixels.format = PixelFormat::Rgb111;
     field.flashes.push_back({{3.0, 4.0, 2.0}, 0b001, 0});
     field.flashes.push_back({{9.0, -4.0, 6.0}, 0b010, 1});
     field.flashes.push_back({{3.0 + 1e-13, 4.0, 2.0 - 1e-13}, 0b100, 5});

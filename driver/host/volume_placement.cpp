@@ -1,4 +1,4 @@
-#include "driver/host/volume_place.h"
+#include "driver/host/volume_placement.h"
 
 #include <limits>
 

@@ -15,9 +15,9 @@ namespace xorvox::host {
 glm::dmat4 stretched(const SampledVolume& volume);
 
 /// A placement as its users apply it, with the size of the volume.
-class VolumePlace {
+class VolumePlacement {
 public:
-    VolumePlace(const SampledVolume& volume, const glm::dmat4& placement)
+    VolumePlacement(const SampledVolume& volume, const glm::dmat4& placement)
         : placement_(placement), last_(volume.nx - 1.0, volume.ny - 1.0, volume.nz - 1.0) {}
 
     /// The place among the voxels of a point of the box; what is outside, or no number, is moved to the border.

@@ -1,0 +1,40 @@
+// Seats: the pixels of one panel in one slice, as places in the world. driver/display/description.h draws them; the
+// arithmetic is the simulator's own.
+#pragma once
+
+#include <complex>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "driver/display/description.h"
+#include "sim/optics.h"
+
+namespace xorvox::sim {
+
+class Seats {
+public:
+    /// `display` must be valid, and is borrowed, as is `misbuild`.
+    Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Misbuild& misbuild);
+
+    /// Of pixel `column` on the wire.
+    glm::dvec3 place_mm(std::uint32_t row, std::uint32_t column) const;
+
+private:
+    using Turn = std::complex<double>;
+
+    glm::dvec3 rotor_place(std::uint32_t column, double across, double upwards) const;
+    double screen_height(const Turn& place) const;
+
+    const DisplayDescription& display_;
+    const Panel& panel_;
+    const Misbuild& misbuild_;
+    bool reversed_;
+    Turn on_side_;
+    Turn tilt_;
+    Turn turned_{1.0, 0.0};   ///< Rotating panel: by how much it has turned about the axis.
+    double height_mm_ = 0.0;  ///< Of the plane.
+    double phase_ = 0.0;      ///< Helix: of the screen, in blades.
+};
+
+}  // namespace xorvox::sim
