@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "driver/host/white.h"
+#include "tools/color_choice.h"
 #include "tools/command_line.h"
 
 namespace xorvox::tools {
@@ -63,11 +64,11 @@ CLI::Option* add_positive(CLI::App& app, const std::string& name, std::function<
 void add_stage(CLI::App& app, StageOptions& options) {
     add_strict(app, options.mesh);
     add_display(app, options.display);
-    app.add_option(
-           "--color", options.color,
-           "constant:NAME, constant:#rrggbb, gradient (the default), gradient:NAME,NAME from bottom to top, noise, "
-           "noise:SCALE or a formula, 'expr: hsv(noise(8*p), 1, z)'; NAME is a colour as in CSS, and a wrong one lists "
-           "them all")
+    app.add_option("--color", options.color,
+                   "Which colour each lit voxel has (default gradient): " + color_kinds() +
+                       ". COLOR is a name as in CSS or #rrggbb, and a wrong one lists them all; own is the model's own "
+                       "colours. "
+                       "docs/color.md shows each kind")
         ->type_name("KIND:ARGS");
     add_light(app, options.light);
     app.add_option(

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/color_choice.h"
 #include "tools/console.h"
 #include "tools/mesh_content.h"
 #include "tools/mesh_input.h"
@@ -43,7 +44,7 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
     stage->display = std::move(*display);
     const Expected<ChosenLight> light = choose_light(options.light, stage->display);
     if (!light) return tl::unexpected(light.error());
-    auto color = host::parse_color(options.color);
+    auto color = choose_color(options.color);
     if (!color) return fail("--color: " + color.error().message);
     stage->color = std::move(*color);
     if (const auto fits = check_display_fits(stage->display); !fits) return tl::unexpected(fits.error());

@@ -1,6 +1,7 @@
 #include "voxelizer/nearest_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -11,17 +12,23 @@
 namespace xorvox {
 namespace {
 
-constexpr std::size_t kMostInLeaf = 5;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// Boxes are larger by this share of the whole, far more than floats and the doubles of look_at() err.
-constexpr double kMargin = 1e-6;
-/// Squared distances to boxes count less by this share, for the same reason.
-constexpr double kBoxShare = 1.0 - 1e-5;
+constexpr std::size_t kMostInLeaf = 2;
+/// Plates are larger by this share of the whole, far more than floats and the doubles of look_at() err.
+constexpr double kMargin = 4e-6;
+/// Plates are looked into that are farther than the best place by this share, for the same reason.
+constexpr double kReach = 1.0 + 2e-5;
+/// What floats may lose where one square is taken from another, as a share.
+constexpr float kLost = 2e-6f;
 /// Triangles whose squared area is a smaller share of their sides' are thin.
 constexpr double kThin = 1e-8;
 
 double inverse(double x) {
     return x > 1e-280 ? 1.0 / x : 0.0;
+}
+
+/// x, or 0 where it is less, without a branch, which would keep loops from being turned into vectors.
+float positive(float x) {
+    return 0.5f * (x + std::abs(x));
 }
 
 double clamp_01(double t) {
@@ -44,7 +51,7 @@ NearestSurface::NearestSurface(const MeshView& mesh) : vertex_count_(mesh.positi
     }
     while (leaf_count_ * kMostInLeaf < sources_.size()) leaf_count_ *= 4;
     inner_count_ = (leaf_count_ - 1) / 3;
-    boxes_.resize(inner_count_);
+    plates_.resize(inner_count_);
     triangles_.resize(sources_.size());
     std::vector<glm::dvec3> middles(sources_.size());
     for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -107,49 +114,67 @@ void NearestSurface::refit() {
     if (triangles_.empty()) return;
     glm::dvec3 lower(std::numeric_limits<double>::infinity());
     glm::dvec3 upper(-std::numeric_limits<double>::infinity());
-    const auto extend = [](const Triangle& t, glm::dvec3& low, glm::dvec3& high) {
+    for (const Triangle& t : triangles_) {
         for (const glm::dvec3& corner : {t.a, t.a + t.ab, t.a + t.ac}) {
-            low = glm::min(low, corner);
-            high = glm::max(high, corner);
+            lower = glm::min(lower, corner);
+            upper = glm::max(upper, corner);
         }
-    };
-    for (const Triangle& t : triangles_) extend(t, lower, upper);
+    }
     center_ = 0.5 * (lower + upper);
     const glm::dvec3 size = upper - lower;
     const glm::dvec3 far = glm::max(glm::abs(lower), glm::abs(upper));
     // Doubles are as fine as the coordinates are large; floats, which are relative to the centre, as the mesh is.
     const double margin = kMargin * std::max({size.x, size.y, size.z}) + 1e-14 * std::max({far.x, far.y, far.z});
-
-    for (std::size_t node = inner_count_; node-- > 0;) {
-        Boxes& boxes = boxes_[node];
-        for (std::size_t child = 0; child < 4; ++child) {
-            const std::size_t number = 4 * node + 1 + child;
-            glm::vec3 low(kInfinity);
-            glm::vec3 high(-kInfinity);
-            if (number < inner_count_) {
-                for (std::size_t i = 0; i < 4; ++i) {
-                    for (int axis = 0; axis < 3; ++axis) {
-                        const auto a = static_cast<std::size_t>(axis);
-                        low[axis] = std::min(low[axis], boxes_[number].lower[a][i]);
-                        high[axis] = std::max(high[axis], boxes_[number].upper[a][i]);
-                    }
-                }
-            } else {
-                const std::size_t leaf = number - inner_count_;
-                glm::dvec3 least(std::numeric_limits<double>::infinity());
-                glm::dvec3 most(-std::numeric_limits<double>::infinity());
-                for (std::size_t i = first_triangle(leaf); i < first_triangle(leaf + 1); ++i) {
-                    extend(triangles_[i], least, most);
-                }
-                low = glm::vec3(least - center_ - margin);
-                high = glm::vec3(most - center_ + margin);
-            }
-            for (int axis = 0; axis < 3; ++axis) {
-                boxes.lower[static_cast<std::size_t>(axis)][child] = low[axis];
-                boxes.upper[static_cast<std::size_t>(axis)][child] = high[axis];
+    // The nodes of a level have the leaves in turn, each as many.
+    std::size_t node = 0;
+    for (std::size_t nodes = 1; nodes < leaf_count_; nodes *= 4) {
+        const std::size_t leaves = leaf_count_ / nodes / 4;  // of a child
+        for (std::size_t leaf = 0; leaf < leaf_count_; ++node) {
+            for (std::size_t child = 0; child < 4; ++child, leaf += leaves) {
+                fit_plate(first_triangle(leaf), first_triangle(leaf + leaves), margin, plates_[node], child);
             }
         }
     }
+}
+
+void NearestSurface::fit_plate(std::size_t begin, std::size_t end, double margin, Plates& plates,
+                               std::size_t child) const {
+    const auto triangles = std::span(triangles_).subspan(begin, end - begin);
+    glm::dvec3 lower(std::numeric_limits<double>::infinity());
+    glm::dvec3 upper(-std::numeric_limits<double>::infinity());
+    glm::dvec3 sum(0.0);
+    for (const Triangle& t : triangles) {
+        for (const glm::dvec3& corner : {t.a, t.a + t.ab, t.a + t.ac}) {
+            lower = glm::min(lower, corner);
+            upper = glm::max(upper, corner);
+        }
+        sum += glm::cross(t.ab, t.ac);
+    }
+    // Any direction is right, this one mostly good.
+    const double length = std::sqrt(glm::dot(sum, sum));
+    const glm::vec3 normal = length > 1e-140 ? glm::vec3(sum / length) : glm::vec3(0.0f, 0.0f, 1.0f);
+    const glm::vec3 center = triangles.empty() ? glm::vec3(0.0f) : glm::vec3(0.5 * (lower + upper) - center_);
+    const glm::dvec3 exact_center = glm::dvec3(center) + center_;
+    const glm::dvec3 exact_normal(normal);
+    double height = 0.0;
+    double radius_squared = 0.0;
+    for (const Triangle& t : triangles) {
+        for (const glm::dvec3& corner : {t.a, t.a + t.ab, t.a + t.ac}) {
+            const glm::dvec3 from = corner - exact_center;
+            const double along = glm::dot(from, exact_normal);
+            const glm::dvec3 across = from - along * exact_normal;
+            height = std::max(height, std::abs(along));
+            radius_squared = std::max(radius_squared, glm::dot(across, across));
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        plates.center[static_cast<std::size_t>(axis)][child] = center[axis];
+        plates.normal[static_cast<std::size_t>(axis)][child] = normal[axis];
+    }
+    plates.height[child] = static_cast<float>(height + margin);
+    // Nothing is at no distance.
+    plates.radius[child] = triangles.empty() ? -std::numeric_limits<float>::infinity()
+                                             : static_cast<float>(std::sqrt(radius_squared) + margin);
 }
 
 void NearestSurface::look_at(std::uint32_t slot, const glm::dvec3& point, Best& best) const {
@@ -189,6 +214,22 @@ void NearestSurface::look_at(std::uint32_t slot, const glm::dvec3& point, Best& 
     if (v + w > 1.0) offer_bc();
 }
 
+std::array<float, 4> NearestSurface::Plates::distances(const glm::vec3& point) const {
+    std::array<float, 4> result;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const float x = point.x - center[0][i];
+        const float y = point.y - center[1][i];
+        const float z = point.z - center[2][i];
+        const float squared = x * x + y * y + z * z;
+        const float along = x * normal[0][i] + y * normal[1][i] + z * normal[2][i];
+        const float across_squared = squared - along * along - kLost * squared;
+        const float across = positive(std::sqrt(positive(across_squared)) - radius[i]);
+        const float above = positive(std::abs(along) - height[i]);
+        result[i] = above * above + across * across;
+    }
+    return result;
+}
+
 NearestSurface::Best NearestSurface::search(const glm::dvec3& point, std::uint32_t start) const {
     Best best{std::numeric_limits<double>::infinity(), start, 0.0, 0.0};
     look_at(start, point, best);
@@ -207,31 +248,21 @@ NearestSurface::Best NearestSurface::search(const glm::dvec3& point, std::uint32
     std::size_t size = 0;
     waiting[size++] = {0.0f, 0};
     const glm::vec3 p(point - center_);
-    const auto is_near = [&](float distance) { return kBoxShare * double{distance} <= best.distance_squared; };
+    auto reach = static_cast<float>(kReach * best.distance_squared);
     while (size > 0) {
         const Branch branch = waiting[--size];
-        if (!is_near(branch.distance)) continue;
+        if (branch.distance > reach) continue;
         if (branch.node >= inner_count_) {
             look_at_leaf(branch.node - inner_count_);
+            reach = static_cast<float>(kReach * best.distance_squared);
             continue;
         }
-        const Boxes& boxes = boxes_[branch.node];
-        std::array<float, 4> distances{};
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto& lower = boxes.lower[static_cast<std::size_t>(axis)];
-            const auto& upper = boxes.upper[static_cast<std::size_t>(axis)];
-            for (std::size_t i = 0; i < 4; ++i) {
-                const float below = lower[i] - p[axis];
-                const float above = p[axis] - upper[i];
-                const float outside = below > above ? below : above;
-                const float counted = outside > 0.0f ? outside : 0.0f;
-                distances[i] += counted * counted;
-            }
-        }
+        const Plates& plates = plates_[branch.node];
+        const std::array<float, 4> distances = plates.distances(p);
         // The nearest last, so that it is next.
         const std::size_t begin = size;
         for (std::uint32_t i = 0; i < 4; ++i) {
-            if (!is_near(distances[i])) continue;
+            if (distances[i] > reach) continue;
             std::size_t at = size++;
             for (; at > begin && waiting[at - 1].distance < distances[i]; --at) waiting[at] = waiting[at - 1];
             waiting[at] = {distances[i], 4 * branch.node + 1 + i};

@@ -26,7 +26,7 @@ struct SurfacePoint {
     double distance_squared = 0.0;
 };
 
-/// A tree of boxes over the triangles. Hosted. Any number of threads may ask; set_positions() must not run meanwhile.
+/// A tree over the triangles. Hosted. Any number of threads may ask; set_positions() must not run meanwhile.
 class NearestSurface {
 public:
     /// `mesh` must pass validate(); coordinates finite and within ±1e15. Nothing of it is kept. Throws std::bad_alloc.
@@ -64,10 +64,18 @@ private:
         std::array<std::uint32_t, 3> corners;
         std::array<std::uint32_t, 3> vertices;
     };
-    /// The boxes of a node's four children, relative to center_, rounded outward.
-    struct Boxes {
-        std::array<std::array<float, 4>, 3> lower;
-        std::array<std::array<float, 4>, 3> upper;
+    /// What holds a node's triangles: round plates, all places that are within `height` of a plane through `center`
+    /// with the normal `normal`, and within `radius` of the axis. Unlike boxes they lie along the surface however it is
+    /// turned, so that a point deep inside finds few plates as near as the nearest. Those of a node's four children
+    /// stand side by side; relative to center_, rounded outward.
+    struct Plates {
+        float center[3][4];
+        float normal[3][4];
+        float height[4];
+        float radius[4];
+
+        /// At most the squared distances of the point, which is relative to center_, from the triangles.
+        std::array<float, 4> distances(const glm::vec3& point) const;
     };
     /// The best place so far.
     struct Best {
@@ -78,6 +86,7 @@ private:
 
     void sort(std::span<const glm::dvec3> middles);
     void refit();
+    void fit_plate(std::size_t begin, std::size_t end, double margin, Plates& plates, std::size_t child) const;
     std::size_t first_triangle(std::size_t leaf) const { return triangles_.size() * leaf / leaf_count_; }
     void look_at(std::uint32_t slot, const glm::dvec3& point, Best& best) const;
     Best search(const glm::dvec3& point, std::uint32_t start) const;
@@ -88,7 +97,7 @@ private:
     std::vector<Triangle> triangles_;  ///< In the order of the leaves.
     std::size_t leaf_count_ = 1;       ///< A power of four.
     std::size_t inner_count_ = 0;      ///< Node n has the children 4n + 1 … 4n + 4; leaves follow the inner nodes.
-    std::vector<Boxes> boxes_;         ///< Of the inner nodes.
+    std::vector<Plates> plates_;       ///< Of the inner nodes.
     glm::dvec3 center_{0.0};
 };
 

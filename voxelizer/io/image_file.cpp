@@ -6,15 +6,13 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include "voxelizer/io/file_bytes.h"
 #include "voxelizer/io/file_name.h"
 #include "voxelizer/io/jpeg.h"
 #include "voxelizer/io/load.h"
-#include "voxelizer/io/read_file.h"
 
 namespace xorvox::io {
 namespace {
-
-constexpr FileKind kImageFile{"an image file", kMaxImageFileBytes, "make the picture smaller"};
 
 /// No byte of DEFLATE (RFC 1951) becomes more: 258 bytes take two bits at least.
 constexpr std::uint64_t kMostInflated = 1032;
@@ -101,8 +99,8 @@ bool is_image_path(std::string_view path) {
 Expected<Image> decode_image(std::string_view bytes, std::string_view source) {
     try {
         if (bytes.size() > kMaxImageFileBytes) {
-            return fail(fmt::format("{}: longer than {} bytes, the most that is read; {}", source, kMaxImageFileBytes,
-                                    kImageFile.shorten));
+            return fail(fmt::format("{}: longer than {} bytes, the most that is read of an image file", source,
+                                    kMaxImageFileBytes));
         }
         if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return decode_png(bytes, source);
         if (bytes.starts_with("\xff\xd8")) return decode_whole_jpeg(bytes, source);
@@ -115,7 +113,7 @@ Expected<Image> decode_image(std::string_view bytes, std::string_view source) {
 Expected<Image> read_image(const std::string& path) {
     const std::string name = printable_name(path);
     try {
-        const auto bytes = read_file(path, name, kImageFile);
+        const auto bytes = read_file_bytes(path, name, kMaxImageFileBytes, "an image file");
         if (!bytes) return tl::unexpected(bytes.error());
         return decode_image(*bytes, name);
     } catch (const std::bad_alloc&) {

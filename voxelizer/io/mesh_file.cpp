@@ -6,16 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "voxelizer/io/file_bytes.h"
 #include "voxelizer/io/file_name.h"
 #include "voxelizer/io/formats.h"
-#include "voxelizer/io/read_file.h"
 #include "voxelizer/io/text_scanner.h"
 #include "voxelizer/io/weld.h"
 
 namespace xorvox::io {
 namespace {
-
-constexpr FileKind kMeshFile{"a mesh file", kMaxMeshFileBytes, "split or simplify the mesh"};
 
 Expected<Mesh> parse_any(std::string_view bytes, const std::string& name) {
     if (begins_like_ply(bytes)) return parse_ply(bytes, name);
@@ -50,8 +48,8 @@ Expected<void> place(Mesh& mesh, const MeshReadOptions& options, std::string_vie
 Expected<void> check_size(std::string_view bytes, std::string_view source) {
     if (bytes.empty()) return fail(fmt::format("{}: byte 0: the file is empty; export the mesh again", source));
     if (bytes.size() > kMaxMeshFileBytes) {
-        return fail(fmt::format("{}: longer than {} bytes, the most that is read; {}", source, kMaxMeshFileBytes,
-                                kMeshFile.shorten));
+        return fail(fmt::format("{}: longer than {} bytes, the most that is read; split or simplify the mesh", source,
+                                kMaxMeshFileBytes));
     }
     return {};
 }
@@ -78,7 +76,7 @@ Expected<Mesh> read_mesh(const std::string& path, const MeshReadOptions& options
         return fail(fmt::format("{}: cannot be scaled by {}; use a finite positive number", name, options.scale));
     }
     try {
-        const auto bytes = read_file(path, name, kMeshFile);
+        const auto bytes = read_file_bytes(path, name, kMaxMeshFileBytes, "a mesh file");
         if (!bytes) return tl::unexpected(bytes.error());
         if (auto ok = check_size(*bytes, name); !ok) return tl::unexpected(std::move(ok.error()));
         auto mesh = parse_any(*bytes, name);
