@@ -31,6 +31,13 @@ struct GridOptions {
     std::optional<glm::dvec3> pitch;
 };
 
+/// How a volume file is taken; shared by show, play, info and convert.
+struct VolumeOptions {
+    std::optional<double> threshold;     ///< Of volumes of values; none: found by Otsu's method.
+    std::string transfer;                ///< VALUE:COLOR[:OPACITY],…; empty: from threshold to most value.
+    std::optional<std::uint32_t> frame;  ///< Only this one, from 0; none: all.
+};
+
 struct InfoOptions {
     MeshOptions mesh;
     bool json = false;

@@ -32,8 +32,8 @@ inline std::size_t nearest_voxel(const SampledVolume& volume, const glm::dvec3& 
                         static_cast<std::uint32_t>(at.z + 0.5));
 }
 
-/// The value at `at`, which is within the volume, between those of the eight voxels around it: trilinear, as in Rueda et
-/// al., section 3. Beyond the outer centres it is as at the edge.
+/// The value at `at`, which is within the volume, between those of the eight voxels around it: trilinear, as in Rueda
+/// et al., section 3. Beyond the outer centres it is as at the edge.
 inline double value_between(const SampledVolume& volume, const glm::dvec3& at) {
     struct Axis {
         std::size_t low;
