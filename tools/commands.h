@@ -39,7 +39,8 @@ struct VolumeOptions {
 };
 
 struct InfoOptions {
-    MeshOptions mesh;
+    MeshOptions mesh;  ///< Its path may be that of a volume.
+    VolumeOptions volume;
     bool json = false;
 };
 
@@ -48,6 +49,7 @@ struct VoxelizeOptions {
     GridOptions grid;
     std::string output;
     std::string method = "column";  ///< Or "simplicial" or "reference".
+    bool gzip = false;              ///< Of .nrrd.
     bool json = false;
 
     // Of the method "column":
@@ -59,6 +61,14 @@ struct VoxelizeOptions {
     // Of the method "simplicial":
     SimplicialOptions simplicial;
     bool signed_sum = false;  ///< Look for faults of orientation.
+};
+
+struct ConvertOptions {
+    std::string input;
+    std::string output;
+    VolumeOptions volume;  ///< Without transfer.
+    bool gzip = false;     ///< Of .nrrd.
+    bool json = false;
 };
 
 /// Pixels of a picture.
@@ -170,6 +180,7 @@ struct BenchDisplayOptions {
 
 Expected<void> info(const InfoOptions& options);
 Expected<void> voxelize(const VoxelizeOptions& options);
+Expected<void> convert(const ConvertOptions& options);
 Expected<void> show(const ShowOptions& options);
 Expected<void> play(const PlayOptions& options);
 Expected<void> sim(const SimOptions& options);

@@ -91,9 +91,9 @@ ValueRange value_range(const VolumeSequence& sequence) {
     return range;
 }
 
-std::vector<glm::dvec3> box_corners(const VolumeSequence& sequence) {
+std::vector<glm::dvec3> box_corners(std::span<const SampledVolume> frames) {
     std::vector<glm::dvec3> corners;
-    for (const SampledVolume& volume : sequence.frames) {
+    for (const SampledVolume& volume : frames) {
         for (unsigned corner = 0; corner < 8; ++corner) {
             const auto end = [corner](unsigned axis, std::uint32_t side) {
                 return (corner >> axis) & 1 ? side - 0.5 : -0.5;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,8 @@ const char* kind_name(VolumeKind kind);
 /// Over all frames; values other than those of Colors.
 ValueRange value_range(const VolumeSequence& sequence);
 
-/// The corners of the boxes around all voxels of all frames, in mm: points for fit_to_display() and bounds.
-std::vector<glm::dvec3> box_corners(const VolumeSequence& sequence);
+/// The corners of the boxes around all voxels of all of `frames`, in mm: points for fit_to_display() and bounds.
+std::vector<glm::dvec3> box_corners(std::span<const SampledVolume> frames);
 
 /// Takes a place in the display's mm to voxels of `volume`, as resample() has it, when `placed` takes the file's mm to
 /// the display's: Placement::matrix(), and a pose after it.
