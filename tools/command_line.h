@@ -22,6 +22,7 @@ struct AllOptions {
     VoxelizeOptions voxelize;
     ShowOptions show;
     SimOptions sim;
+    ShareOptions share;
     BenchOptions bench;
     BenchDisplayOptions bench_display;
     DisplaysOptions displays;

@@ -1,4 +1,4 @@
-// The commands about displays: show, sim, displays, validate, plan, pattern and control.
+// The commands about displays: show, sim, displays, validate, plan, pattern, share and control.
 #include <fmt/format.h>
 
 #include "tools/command_line.h"
@@ -19,7 +19,7 @@ PictureSize parse_size(const std::string& option, const std::string& text) {
     return {parse_count(option, text.substr(0, cross), 4096), parse_count(option, text.substr(cross + 1), 4096)};
 }
 
-/// Where light goes; for show and pattern.
+/// Where light goes; for show, pattern and share.
 void add_delivery(CLI::App& app, DeliveryOptions& options) {
     app.add_option("--to", options.to,
                    "Where it goes: loopback (a simulated display in this program, the default), tcp:HOST:PORT, or "
@@ -171,6 +171,28 @@ Command pattern_command(CLI::App& program, PatternOptions& options) {
     return {&app, [&options] { return pattern(options); }};
 }
 
+Command share_command(CLI::App& program, ShareOptions& options) {
+    CLI::App& app = *program.add_subcommand(
+        "share", "Let other programs draw on a display, through shared memory (docs/share.md), until interrupted");
+    add_display(app, options.display);
+    app.add_option("--socket", options.socket, "Where they connect: a path, at which a Unix socket is made")
+        ->required()
+        ->type_name("PATH");
+    add_positive(
+        app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
+        "How long (default: until interrupted)");
+    app.add_option_function<std::string>(
+           "--frames",
+           [&options](const std::string& text) { options.frames = parse_count("--frames", text, 1'000'000'000); },
+           "End when so many frames were drawn and the last one was shown (default: any number)")
+        ->type_name("N");
+    add_delivery(app, options.delivery);
+    examples(app,
+             "  xorvox share --display vortex --socket /tmp/vortex --to tcp:127.0.0.1:7777\n"
+             "  xorvox share --display cube16-ws2812 --socket /tmp/cube --frames 100 --png cube.png");
+    return {&app, [&options] { return share(options); }};
+}
+
 Command control_command(CLI::App& program, ControlOptions& options) {
     CLI::App& app = *program.add_subcommand(
         "control", "Ask a distant display how it is, and tell it: clear a fault, brightness, dark, watchdog");
@@ -205,7 +227,7 @@ std::vector<Command> display_commands(CLI::App& program, AllOptions& options) {
     return {show_command(program, options.show),         sim_command(program, options.sim),
             displays_command(program, options.displays), validate_command(program, options.validate),
             plan_command(program, options.plan),         pattern_command(program, options.pattern),
-            control_command(program, options.control)};
+            share_command(program, options.share),       control_command(program, options.control)};
 }
 
 }  // namespace xorvox::tools
