@@ -72,14 +72,14 @@ class Display:
 
 def height_at(radius, seconds):
     """Of the wave, 0 to 1, at a radius of 0 to 1."""
-    return 0.5 + 0.45 * math.sin(2 * math.pi * (1.5 * radius - 0.5 * seconds))
+    return 0.5 + 0.3 * math.sin(2 * math.pi * (radius - 0.5 * seconds))
 
 
 def draw(display, seconds):
     """Draws the wave into the frame; how many pixels are lit."""
     display.frame = bytearray(display.frame_bytes)
-    blue = {2: 4, 3: 3, 4: 31, 5: 255 << 16, 6: 31}
-    code = (1 << display.bits) - 1 if display.format in ONE_COLOUR else blue[display.format]
+    cyan = {2: 0b110, 3: 0b000_111_11, 4: 0b00000_111111_11111, 5: 0xFFFF00, 6: 0b00000_11111_11111}
+    code = (1 << display.bits) - 1 if display.format in ONE_COLOUR else cyan[display.format]
     lit = 0
     for panel, (columns, rows, _, _) in enumerate(display.panels):
         half = [max(columns - 1, 1) / 2, max(rows - 1, 1) / 2]
