@@ -170,6 +170,7 @@ TEST_CASE("share and its examples refuse bad input with one line", "[cli]") {
     CHECK_THAT(wave.out, Catch::Contains("No such file") && !Catch::Contains("Traceback"));
     Background server({"share", "--display", "cube8-595", "--socket", folder.path("socket"), "--json"});
     server.line();
-    Background second({"share", "--display", "cube8-595", "--socket", folder.path("socket")});
-    CHECK_FALSE(second.line());
+    const Outcome second = run_program({"share", "--display", "cube8-595", "--socket", folder.path("socket")});
+    CHECK(second.status == 2);
+    CHECK_THAT(second.err, Catch::Contains("a program listens there already"));
 }
