@@ -82,7 +82,7 @@ TEST_CASE("shared frames: what a program publishes is taken without an allocatio
     host::ShareStatistics statistics;
     int ends[2];
     REQUIRE(::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) == 0);
-    host::FrameClient client(host::Descriptor(ends[0]), std::move(*host::FrameSegment::make(display)),
+    host::FrameClient client(host::Descriptor{ends[0]}, std::move(*host::FrameSegment::make(display)),
                              host::FrameTerms(display), frames, statistics);
     const host::Descriptor drawer(ends[1]);
     const std::size_t before = allocations;
