@@ -86,13 +86,16 @@ TEST_CASE("shared frames: a page published by atomics is the latest frame, and a
     ShareRig rig;
     const auto drawer = rig.drawer();
     xorvox_frames& frames = drawer->frames();
+    std::uint32_t read = XORVOX_FRAMES_NO_PAGE;  // By the server.
     for (std::uint8_t i = 1; i <= 50; ++i) {
         const std::uint32_t page = xorvox_frames_begin(&frames);
         REQUIRE(page < host::FrameSegment::kPages);
+        REQUIRE(page != read);
         CHECK(xorvox_frames_begin(&frames) == page);
         fill(drawer->page(page), i);
         xorvox_frames_end(&frames, page, i);
         if (i % 3 != 0) continue;  // The server was slow.
+        read = page;
         rig.server->poll(rig.now_ns);
         rig.server->poll(rig.now_ns);
         CHECK(all_are(rig.frames.latest(), i));
