@@ -10,8 +10,8 @@
 #include "tools/console.h"
 #include "tools/mesh_input.h"
 #include "tools/volume_info.h"
-#include "voxelizer/io/volume_reader.h"
 #include "voxelizer/io/scene.h"
+#include "voxelizer/io/volume_reader.h"
 
 namespace xorvox::tools {
 namespace {
