@@ -128,7 +128,8 @@ TEST_CASE("nrrd: data beside a detached header are read, no other files") {
     CHECK_THAT(io::read_volumes(folder / "b.nhdr").error().message, contains("b.raw") && contains("No such file"));
     for (const std::string name : {"/etc/passwd", "../a.raw", "..", "LIST", "a%d.raw 1 2 1", "b/a.raw"}) {
         put(folder / "c.nhdr", nrrd("uint8", "raw", "data file: " + name + "\n"));
-        CHECK_THAT(io::read_volumes(folder / "c.nhdr").error().message, contains("data file") && contains("own folder"));
+        CHECK_THAT(io::read_volumes(folder / "c.nhdr").error().message,
+                   contains("data file") && contains("own folder"));
     }
 }
 
