@@ -7,6 +7,7 @@
 #include "tools/console.h"
 #include "tools/mesh_input.h"
 #include "tools/volume_info.h"
+#include "voxelizer/io/file_name.h"
 #include "voxelizer/io/volume_reader.h"
 
 namespace xorvox::tools {
@@ -54,7 +55,16 @@ void print_text(const std::string& path, const io::MeshReport& r) {
 }  // namespace
 
 Expected<void> info(const InfoOptions& options) {
-    if (io::is_volume_path(options.mesh.path)) return volume_info(options.mesh.path, options.volume, options.json);
+    const bool is_volume = io::is_volume_path(options.mesh.path);
+    const bool of_mesh = !options.mesh.unit.empty() || options.mesh.up != "z";
+    const bool of_volume = options.volume.threshold || options.volume.frame;
+    if (is_volume ? of_mesh : of_volume) {
+        return fail(fmt::format("{} for {}, and {} is a {}; leave them away",
+                                is_volume ? "--unit and --up are" : "--threshold and --frame are",
+                                is_volume ? "meshes" : "volumes", io::printable_name(options.mesh.path),
+                                is_volume ? "volume" : "mesh"));
+    }
+    if (is_volume) return volume_info(options.mesh.path, options.volume, options.json);
     const Expected<MeshInput> input = read_input(options.mesh);
     if (!input) return tl::unexpected(input.error());
     (options.json ? print_json : print_text)(options.mesh.path, input->report);

@@ -110,6 +110,8 @@ TEST_CASE("volumes cut short, absurd or unknown are refused, and nothing is writ
     refused({"convert", good, out, "--threshold", "nan"}, {"--threshold"});
     succeeds({"convert", good, folder.path("bits.nrrd")});
     refused({"convert", folder.path("bits.nrrd"), out, "--threshold", "1"}, {"--threshold", "only inside and outside"});
+    refused({"info", good, "--unit", "cm"}, {"--unit", "good.nrrd is a volume"});
+    refused({"info", folder.path("x.obj"), "--threshold", "1"}, {"--threshold", "x.obj is a mesh"});
     refused({"voxelize", folder.path("x.obj"), "--size", "300", "-o", folder.path("out.vox")}, {"256 voxels a side"});
     CHECK_FALSE(std::filesystem::exists(out));
     CHECK_FALSE(std::filesystem::exists(folder.path("out.vox")));
