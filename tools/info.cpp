@@ -60,7 +60,7 @@ Expected<void> info(const InfoOptions& options) {
     const bool of_volume = options.volume.threshold || options.volume.frame;
     if (is_volume ? of_mesh : of_volume) {
         return fail(fmt::format("{} for {}, and {} is a {}; leave them away",
-                                is_volume ? "--unit and --up are" : "--threshold and --frame are",
+                                is_volume ? "--unit and --up are" : "--threshold and --volume are",
                                 is_volume ? "meshes" : "volumes", io::printable_name(options.mesh.path),
                                 is_volume ? "volume" : "mesh"));
     }

@@ -105,7 +105,7 @@ TEST_CASE("volumes cut short, absurd or unknown are refused, and nothing is writ
     const std::string good = folder.file("good.nrrd", ramp);
     refused({"convert", good, folder.path("out.vdb")}, {"out.vdb", ".nrrd"});
     refused({"convert", good, folder.path("out.vox"), "--gzip"}, {"only .nrrd"});
-    refused({"convert", good, out, "--frame", "1"}, {"--frame is 1", "one frame"});
+    refused({"convert", good, out, "--volume", "1"}, {"--volume is 1"});
     refused({"convert", good, out, "--threshold", "low"}, {"--threshold", "'low'"});
     refused({"convert", good, out, "--threshold", "nan"}, {"--threshold"});
     succeeds({"convert", good, folder.path("bits.nrrd")});
