@@ -10,6 +10,7 @@
 #include "tools/console.h"
 #include "tools/mesh_input.h"
 #include "tools/volume_info.h"
+#include "voxelizer/io/file_name.h"
 #include "voxelizer/io/scene.h"
 #include "voxelizer/io/volume_reader.h"
 
@@ -105,7 +106,16 @@ void print_text(const std::string& path, const io::MeshReport& r, const io::Scen
 }  // namespace
 
 Expected<void> info(const InfoOptions& options) {
-    if (io::is_volume_path(options.mesh.path)) return volume_info(options.mesh.path, options.volume, options.json);
+    const bool is_volume = io::is_volume_path(options.mesh.path);
+    const bool of_mesh = !options.mesh.unit.empty() || !options.mesh.up.empty();
+    const bool of_volume = options.volume.threshold || options.volume.frame;
+    if (is_volume ? of_mesh : of_volume) {
+        return fail(fmt::format("{} for {}, and {} is a {}; leave them away",
+                                is_volume ? "--unit and --up are" : "--threshold and --volume are",
+                                is_volume ? "meshes" : "volumes", io::printable_name(options.mesh.path),
+                                is_volume ? "volume" : "mesh"));
+    }
+    if (is_volume) return volume_info(options.mesh.path, options.volume, options.json);
     const Expected<io::MeshReadOptions> read = read_options(options.mesh);
     if (!read) return tl::unexpected(read.error());
     io::MeshReport report;
