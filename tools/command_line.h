@@ -25,6 +25,7 @@ struct AllOptions {
     SimOptions sim;
     BenchOptions bench;
     BenchDisplayOptions bench_display;
+    BenchColorOptions bench_color;
     DisplaysOptions displays;
     ValidateOptions validate;
     PlanOptions plan;

@@ -161,6 +161,13 @@ struct BenchDisplayOptions {
     bool json = false;
 };
 
+struct BenchColorOptions {
+    std::string mesh;
+    std::string display = "vortex";
+    bool quick = false;
+    bool json = false;
+};
+
 Expected<void> info(const InfoOptions& options);
 Expected<void> voxelize(const VoxelizeOptions& options);
 Expected<void> show(const ShowOptions& options);
@@ -168,6 +175,7 @@ Expected<void> play(const PlayOptions& options);
 Expected<void> sim(const SimOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> bench_displays(const BenchDisplayOptions& options);
+Expected<void> bench_color(const BenchColorOptions& options);
 Expected<void> displays(const DisplaysOptions& options);
 Expected<void> validate(const ValidateOptions& options);
 Expected<void> control(const ControlOptions& options);
