@@ -52,6 +52,9 @@ void add_mesh(CLI::App& app, MeshOptions& mesh);
 void add_reading(CLI::App& app, MeshOptions& mesh);
 void add_strict(CLI::App& app, MeshOptions& mesh);
 
+/// How colours become light; for the commands that show models.
+void add_light(CLI::App& app, LightOptions& light);
+
 /// "64" into a number of things, at most `most`. A CLI::ValidationError says what is wrong; so below.
 std::uint32_t parse_count(const std::string& option, const std::string& text, std::uint32_t most);
 /// "1.5" into a number above zero.

@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "tools/light_options.h"
 #include "voxelizer/error.h"
 #include "voxelizer/region.h"
 #include "voxelizer/simplicial.h"
@@ -79,7 +80,7 @@ struct StageOptions {
     double files_per_second = 10.0;
     std::string display;
     std::string color = "gradient";
-    std::string light = "bright";     ///< Or "uniform".
+    LightOptions light;
     std::string sampling = "native";  ///< Or "cartesian".
     DeliveryOptions delivery;
 };

@@ -13,6 +13,8 @@ FrameMaker::FrameMaker(const DisplayDescription& display, Content& content, cons
       color_(color),
       slices_(display.slices),
       painter_(display, options.light),
+      budget_(display),
+      brightness_(options.light.brightness),
       volume_(painter_.lattice().view()),
       threads_(options.threads) {
     if (!options.resampled) return;
@@ -37,15 +39,23 @@ Expected<void> FrameMaker::draw(double seconds, const glm::dmat4& pose) {
 }
 
 Expected<void> FrameMaker::paint(std::span<std::byte> frame, std::uint32_t number) {
+    do {
+        dimmed_to_ = budget_.factor();
+        painter_.set_brightness(brightness_ * dimmed_to_);
+        if (const auto painted = paint_once(frame, number); !painted) return painted;
+    } while (!budget_.allows(frame));
+    return {};
+}
+
+Expected<void> FrameMaker::paint_once(std::span<std::byte> frame, std::uint32_t number) {
     const host::ColorField* const color = color_ != nullptr ? color_ : content_.own_color();
     if (color == nullptr) return fail("there is no colour to paint with");
     std::atomic<bool> painted = true;
     const auto paint_part = [&](unsigned part) {
         const auto begin = static_cast<std::uint32_t>(std::uint64_t{slices_} * part / threads_);
         const auto end = static_cast<std::uint32_t>(std::uint64_t{slices_} * (part + 1) / threads_);
-        if (painter_.paint_slices(volume_.view(), *color, frame, begin, end - begin, number) != Status::Ok) {
-            painted = false;
-        }
+        const Status status = painter_.paint_slices(volume_.view(), *color, frame, begin, end - begin, number);
+        if (status != Status::Ok) painted = false;
     };
     {
         std::vector<std::jthread> others;

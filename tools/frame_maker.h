@@ -11,6 +11,7 @@
 
 #include "driver/display/description.h"
 #include "driver/host/color.h"
+#include "driver/host/power_budget.h"
 #include "driver/host/slice_map.h"
 #include "driver/host/slices.h"
 #include "tools/content.h"
@@ -19,9 +20,9 @@
 namespace xorvox::tools {
 
 struct FrameMakerOptions {
-    host::LightSettings light;
-    bool resampled = false;  ///< Voxelized on a grid of cubes, of which the display's samples then take the nearest.
-    unsigned threads = 1;    ///< That paint.
+    host::LightSettings light;  ///< What it borrows is used until the maker is made.
+    bool resampled = false;     ///< Voxelized on a grid of cubes, of which the display's samples then take the nearest.
+    unsigned threads = 1;       ///< That paint.
 };
 
 class FrameMaker {
@@ -33,8 +34,10 @@ public:
 
     /// Sets `volume()` to the samples inside of the content after `seconds`, moved by `pose`.
     Expected<void> draw(double seconds = 0.0, const glm::dmat4& pose = glm::dmat4(1.0));
-    /// Colours volume() into `frame`, frame_bytes(display) long; of a stream its frame number `number`.
+    /// Colours volume() into `frame`, frame_bytes(display) long. `number` is the frame's, from 0 in steps of 1. Where
+    /// the display's supply has a limit, all light is dimmed to keep it; dimmed_to() says how far.
     Expected<void> paint(std::span<std::byte> frame, std::uint32_t number = 0);
+    float dimmed_to() const { return dimmed_to_; }
 
     /// On the lattice of the display.
     const BitVolume& volume() const { return volume_; }
@@ -42,11 +45,15 @@ public:
 private:
     FrameMaker(const DisplayDescription& display, Content& content, const host::ColorField* color,
                const FrameMakerOptions& options);
+    Expected<void> paint_once(std::span<std::byte> frame, std::uint32_t number);
 
     Content& content_;
     const host::ColorField* color_;  ///< Null: the content's.
     std::uint32_t slices_;
     host::FramePainter painter_;
+    host::PowerBudget budget_;
+    float brightness_;
+    float dimmed_to_ = 1.0f;
     BitVolume volume_;
     std::optional<host::SliceMap> map_;  ///< Where resampled.
     BitVolume cartesian_;

@@ -124,7 +124,7 @@ Expected<void> play(const PlayOptions& options) {
         fmt::print("{}: {} of {} samples were inside at the end\n", stage.display.name.view(), thousands(voxels),
                    thousands(frame_pixels(stage.display)));
         print_stream(*delivery);
-        print_light(options.stage, delivery->light);
+        print_light(options.stage, stage, delivery->light);
     }
     return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();
 }

@@ -13,6 +13,7 @@ namespace xorvox::tools {
 namespace {
 
 Expected<void> show_still(const StageOptions& options) {
+    if (const auto possible = check_still(options.light); !possible) return possible;
     const auto set = set_stage(options, Turning::Not);
     if (!set) return tl::unexpected(set.error());
     Stage& stage = **set;
@@ -41,7 +42,7 @@ Expected<void> show_still(const StageOptions& options) {
                thousands(frame_pixels(stage.display)));
     fmt::print("sent to {}: {} bytes as {}\n", to.to, thousands(delivery->session.bytes_raw),
                thousands(delivery->session.bytes_sent));
-    print_light(options, delivery->light);
+    print_light(options, stage, delivery->light);
     return {};
 }
 

@@ -42,6 +42,8 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
     Expected<DisplayFile> display = load_display(options.display);
     if (!display) return tl::unexpected(display.error());
     stage->display = std::move(*display);
+    const Expected<ChosenLight> light = choose_light(options.light, stage->display);
+    if (!light) return tl::unexpected(light.error());
     auto color = choose_color(options.color);
     if (!color) return fail("--color: " + color.error().message);
     stage->color = std::move(*color);
@@ -54,27 +56,32 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
     auto content = read_content(options, stage->display, turning);
     if (!content) return tl::unexpected(content.error());
     stage->content = std::move(*content);
-    auto maker = FrameMaker::make(
-        stage->display, *stage->content, stage->color.get(),
-        {.light = {.mode = options.light == "uniform" ? host::LightMode::Uniform : host::LightMode::Bright},
-         .resampled = options.sampling == "cartesian"});
+    auto maker = FrameMaker::make(stage->display, *stage->content, stage->color.get(),
+                                  {.light = light->settings, .resampled = options.sampling == "cartesian"});
     if (!maker) return tl::unexpected(maker.error());
     stage->maker = std::move(*maker);
     return stage;
 }
 
-void print_light(const StageOptions& options, const std::optional<LightSeen>& light) {
+void print_light(const StageOptions& options, const Stage& stage, const std::optional<LightSeen>& light) {
+    if (stage.maker->dimmed_to() != 1.0f) {
+        fmt::print("light: dimmed to {:.0f} %, so that it draws no more than the {:g} mA of the display's supply\n",
+                   100.0f * stage.maker->dimmed_to(), stage.display.power.limit_ma);
+    }
     if (!light) return;
     const sim::Statistics& seen = light->statistics;
     fmt::print("lit: {} pixels at {} places, {} outside the display\n", thousands(seen.pixels_lit),
                thousands(seen.voxels_lit), thousands(seen.light_outside));
     // In uniform light most samples near an axis are left out, and those that are lit stand for more than their own
     // space.
-    if (seen.voxels_lit > 0 && options.light == "bright") {
+    if (seen.voxels_lit > 0 && options.light.mode == "bright") {
         fmt::print("brightness: the densest light is {:.3g} times the thinnest\n", seen.brightness_ratio);
     }
-    if (options.light == "uniform") {
+    if (options.light.mode == "uniform") {
         fmt::print("brightness: even; of the samples inside, each voxel has one lit for each panel that passes it\n");
+    }
+    if (options.light.mode == "even") {
+        fmt::print("brightness: even; each sample is as bright as the space it stands for is large\n");
     }
     if (!options.delivery.png.empty()) {
         fmt::print("picture: {}, {:.0f} % of it is the object\n", options.delivery.png, 100.0 * light->picture_covered);
@@ -82,9 +89,11 @@ void print_light(const StageOptions& options, const std::optional<LightSeen>& li
 }
 
 std::string stage_json(const StageOptions& options, const Stage& stage, std::size_t inside) {
-    return fmt::format("\"mesh\": {}, \"display\": {}, \"to\": {}, \"samples\": {}, \"inside\": {}",
-                       json_string(options.mesh.path), json_string(stage.display.name.view()),
-                       json_string(options.delivery.to), frame_pixels(stage.display), inside);
+    return fmt::format(
+        "\"mesh\": {}, \"display\": {}, \"to\": {}, \"samples\": {}, \"inside\": {}, \"light_settings\": {}, "
+        "\"dimmed_to\": {:.4f}",
+        json_string(options.mesh.path), json_string(stage.display.name.view()), json_string(options.delivery.to),
+        frame_pixels(stage.display), inside, light_settings_json(options.light), stage.maker->dimmed_to());
 }
 
 std::string light_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {

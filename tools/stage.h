@@ -30,8 +30,8 @@ struct Stage {
 /// touched, and the picture's file is made before the work begins.
 Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning turning);
 
-/// "brightness: …" and what else a person wants to know of the light; nothing of a display that is not in this program.
-void print_light(const StageOptions& options, const std::optional<LightSeen>& light);
+/// What a person wants to know of the light: how far it was dimmed, and of a display in this program what was lit.
+void print_light(const StageOptions& options, const Stage& stage, const std::optional<LightSeen>& light);
 
 /// Members of a JSON object: what the report of a stage begins with, `inside` samples being inside, and what it ends
 /// with.
