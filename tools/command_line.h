@@ -24,6 +24,7 @@ struct AllOptions {
     ShowOptions show;
     PlayOptions play;
     SimOptions sim;
+    ShareOptions share;
     BenchOptions bench;
     BenchDisplayOptions bench_display;
     BenchColorOptions bench_color;

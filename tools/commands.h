@@ -20,7 +20,7 @@ namespace xorvox::tools {
 struct MeshOptions {
     std::string path;
     std::string unit;      ///< Of the file's numbers, which then become millimetres; empty: as they are.
-    std::string up = "z";  ///< The file's axis that points up.
+    std::string up;        ///< The file's axis that points up; empty: what its format defines.
     bool strict = false;   ///< Refuse open meshes.
 };
 
@@ -78,7 +78,7 @@ struct PictureSize {
     std::uint32_t height = 0;
 };
 
-/// Where light goes, and what is told of it; shared by show and pattern.
+/// Where light goes, and what is told of it; shared by show, pattern and share.
 struct DeliveryOptions {
     std::string to = "loopback";
     std::string png;
@@ -124,6 +124,14 @@ struct PatternOptions {
     std::string display;
     std::string name;      ///< Empty with `list`.
     double seconds = 0.0;  ///< Of a pattern that moves; 0: once through it.
+    DeliveryOptions delivery;
+};
+
+struct ShareOptions {
+    std::string display;
+    std::string socket;        ///< Where other programs connect; a path.
+    double seconds = 0.0;      ///< 0: until a signal.
+    std::uint32_t frames = 0;  ///< Ends when so many were published and the last is shown; 0: any number.
     DeliveryOptions delivery;
 };
 
@@ -193,6 +201,7 @@ Expected<void> convert(const ConvertOptions& options);
 Expected<void> show(const ShowOptions& options);
 Expected<void> play(const PlayOptions& options);
 Expected<void> sim(const SimOptions& options);
+Expected<void> share(const ShareOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> bench_displays(const BenchDisplayOptions& options);
 Expected<void> bench_color(const BenchColorOptions& options);
