@@ -27,6 +27,7 @@ struct AllOptions {
     ShareOptions share;
     BenchOptions bench;
     BenchDisplayOptions bench_display;
+    BenchColorOptions bench_color;
     DisplaysOptions displays;
     ValidateOptions validate;
     PlanOptions plan;

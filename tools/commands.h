@@ -188,6 +188,13 @@ struct BenchDisplayOptions {
     bool json = false;
 };
 
+struct BenchColorOptions {
+    std::string mesh;
+    std::string display = "vortex";
+    bool quick = false;
+    bool json = false;
+};
+
 Expected<void> info(const InfoOptions& options);
 Expected<void> voxelize(const VoxelizeOptions& options);
 Expected<void> convert(const ConvertOptions& options);
@@ -197,6 +204,7 @@ Expected<void> sim(const SimOptions& options);
 Expected<void> share(const ShareOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> bench_displays(const BenchDisplayOptions& options);
+Expected<void> bench_color(const BenchColorOptions& options);
 Expected<void> displays(const DisplaysOptions& options);
 Expected<void> validate(const ValidateOptions& options);
 Expected<void> control(const ControlOptions& options);
