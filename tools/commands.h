@@ -20,7 +20,7 @@ namespace xorvox::tools {
 struct MeshOptions {
     std::string path;
     std::string unit;      ///< Of the file's numbers, which then become millimetres; empty: as they are.
-    std::string up = "z";  ///< The file's axis that points up.
+    std::string up;        ///< The file's axis that points up; empty: what its format defines.
     bool strict = false;   ///< Refuse open meshes.
 };
 

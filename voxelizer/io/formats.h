@@ -12,6 +12,7 @@ Expected<void> check_size(std::string_view bytes, std::string_view source);
 
 bool begins_like_ply(std::string_view bytes);
 bool begins_like_text_stl(std::string_view bytes);
+bool begins_like_glb(std::string_view bytes);
 /// Whether the size is 84 + 50 × the count at byte 80.
 bool has_size_of_binary_stl(std::string_view bytes);
 
