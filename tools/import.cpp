@@ -212,12 +212,12 @@ private:
 
     void add_notes() {
         const auto note = [this](std::size_t count, std::string_view what) {
-            if (count > 0) model_.notes.push_back(fmt::format("{} {}", count, what));
+            if (count > 0) model_.notes.push_back(fmt::format("{}: {}", what, count));
         };
-        note(scene_.mNumAnimations, "animations: not read from this format");
-        note(skins_, "skinned meshes: shown in their rest pose");
-        note(flat_faces_, "points or lines: not shown");
-        note(raw_images_, "images without a format: shown white");
+        note(scene_.mNumAnimations, "animations, which are not read from this format");
+        note(skins_, "meshes with a skin, shown in their rest pose");
+        note(flat_faces_, "points or lines, which are not shown");
+        note(raw_images_, "images of plain pixels, shown white");
     }
 
     const aiScene& scene_;

@@ -105,6 +105,12 @@ Expected<std::string_view> glb_json(std::string_view bytes, std::string_view sou
     return bytes.substr(kGlbHeader + kChunkHeader, json_bytes);
 }
 
+// Required extensions that change nothing which is read here, or that are read.
+bool is_known_extension(std::string_view name) {
+    return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || name == "KHR_lights_punctual" ||
+           name.starts_with("KHR_materials_");
+}
+
 // tinygltf's message, which may have lines and pieces of the file in it.
 std::string in_one_line(const std::string& text) {
     constexpr std::size_t kLongest = 200;
@@ -148,6 +154,12 @@ Expected<tinygltf::Model> load_gltf(std::string_view bytes, std::string_view sou
         throw;
     } catch (const std::exception& exception) {
         wrong = exception.what();
+    }
+    // tinygltf has them even when it fails for their sake.
+    for (const std::string& extension : model.extensionsRequired) {
+        if (is_known_extension(extension)) continue;
+        return fail(fmt::format("{}: needs the glTF extension {}, which is not read; export the model without it",
+                                source, quoted(extension)));
     }
     if (!sides.error.empty()) return fail(std::move(sides.error));
     if (!ok) {

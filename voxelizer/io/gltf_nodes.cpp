@@ -81,9 +81,19 @@ Expected<MotionNode> read_node(const tinygltf::Node& node, std::size_t number, c
 class MotionReader {
 public:
     MotionReader(const tinygltf::Model& model, const GltfTree& tree, GltfData& data, std::vector<std::string>& notes)
-        : model_(model), tree_(tree), data_(data), notes_(notes), shown_(model.nodes.size(), kNotShown) {
+        : model_(model),
+          tree_(tree),
+          data_(data),
+          notes_(notes),
+          shown_(model.nodes.size(), kNotShown),
+          carries_mesh_(tree.nodes.size()) {
         for (std::size_t n = 0; n < tree.model_nodes.size(); ++n) {
             shown_[tree.model_nodes[n]] = static_cast<std::uint32_t>(n);
+        }
+        for (std::size_t n = tree.nodes.size(); n-- > 0;) {
+            carries_mesh_[n] |= model.nodes[tree.model_nodes[n]].mesh >= 0;
+            const std::uint32_t parent = tree.nodes[n].parent;
+            if (parent != MotionNode::kNoParent) carries_mesh_[parent] |= carries_mesh_[n];
         }
     }
 
@@ -94,7 +104,10 @@ public:
         for (std::size_t a = 0; a < model_.animations.size(); ++a) {
             std::vector<MotionChannel> channels;
             if (auto ok = read_animation(a, channels); !ok) return tl::unexpected(std::move(ok.error()));
-            if (channels.empty()) continue;
+            if (channels.empty()) {
+                notes_.push_back(fmt::format("animation {}, which moves nothing that is shown", a));
+                continue;
+            }
             double end = 0.0;
             for (const MotionChannel& channel : channels) {
                 moves[channel.node] = 1;
@@ -103,8 +116,9 @@ public:
             motion->about.push_back({printable_name(model_.animations[a].name), end});
             motion->channels.push_back(std::move(channels));
         }
-        if (morphs_) notes_.push_back("animated morph targets: they do not move");
-        if (others_ > 0) notes_.push_back(fmt::format("{} animation channels of other things than nodes", others_));
+        if (others_ > 0) {
+            notes_.push_back(fmt::format("animation channels of other things than poses of nodes: {}", others_));
+        }
         if (motion->about.empty()) return std::shared_ptr<NodeMotion>();
         for (std::size_t n = 0; n < moves.size(); ++n) {
             if (moves[n]) motion->part_nodes.push_back(static_cast<std::uint32_t>(n));
@@ -116,10 +130,6 @@ private:
     Expected<void> read_animation(std::size_t number, std::vector<MotionChannel>& channels) {
         const tinygltf::Animation& animation = model_.animations[number];
         for (const tinygltf::AnimationChannel& channel : animation.channels) {
-            if (channel.target_path == "weights") {
-                morphs_ = true;
-                continue;
-            }
             MotionChannel result;
             if (channel.target_path == "rotation") {
                 result.target = MotionChannel::Target::Rotation;
@@ -135,7 +145,7 @@ private:
                     fmt::format("{}: moves node {} of a file with {}", where, channel.target_node, shown_.size()));
             }
             result.node = shown_[static_cast<std::size_t>(channel.target_node)];
-            if (result.node == kNotShown) continue;
+            if (result.node == kNotShown || !carries_mesh_[result.node]) continue;
             if (tree_.nodes[result.node].matrix) {
                 return data_.refuse(fmt::format("{}: moves node {}, which has a matrix", where, channel.target_node));
             }
@@ -187,8 +197,8 @@ private:
     GltfData& data_;
     std::vector<std::string>& notes_;
     std::vector<std::uint32_t> shown_;  // The number in the tree of each node of the model.
+    std::vector<char> carries_mesh_;    // Whether a node of the tree, or one that hangs on it, has a mesh.
     std::size_t keys_left_ = kMostGltfKeys;
-    bool morphs_ = false;
     std::size_t others_ = 0;
 };
 

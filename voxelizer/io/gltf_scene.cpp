@@ -15,18 +15,11 @@
 #include "voxelizer/io/gltf_model.h"
 #include "voxelizer/io/gltf_nodes.h"
 #include "voxelizer/io/parsed_model.h"
-#include "voxelizer/io/text_scanner.h"
 
 namespace xorvox::io {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
-
-// Required extensions that change nothing which is read here, or that are read.
-bool is_known_extension(std::string_view name) {
-    return name == "KHR_mesh_quantization" || name == "KHR_texture_transform" || name == "KHR_lights_punctual" ||
-           name.starts_with("KHR_materials_");
-}
 
 class SceneReader {
 public:
@@ -38,11 +31,6 @@ public:
           wants_colors_(wanted == Wanted::ShapeAndColors) {}
 
     Expected<ParsedModel> read() {
-        for (const std::string& extension : model_.extensionsRequired) {
-            if (is_known_extension(extension)) continue;
-            return fail(fmt::format("{}: needs the glTF extension {}, which is not read; export the model without it",
-                                    source_, quoted(extension)));
-        }
         auto tree = read_gltf_tree(model_, data_);
         if (!tree) return tl::unexpected(std::move(tree.error()));
         auto motion = read_gltf_motion(model_, *tree, data_, parsed_.notes);
@@ -262,9 +250,11 @@ private:
     }
 
     void add_notes() {
-        if (skins_ > 0) parsed_.notes.push_back(fmt::format("{} skinned meshes: shown in their rest pose", skins_));
-        if (has_morphs_) parsed_.notes.push_back("morph targets: shown without them");
-        if (skipped_ > 0) parsed_.notes.push_back(fmt::format("{} primitives of points or lines: not shown", skipped_));
+        if (skins_ > 0)
+            parsed_.notes.push_back(fmt::format("meshes with a skin, shown in their rest pose: {}", skins_));
+        if (has_morphs_) parsed_.notes.push_back("morph targets, which are not shown");
+        if (skipped_ > 0)
+            parsed_.notes.push_back(fmt::format("primitives of points or lines, which are not shown: {}", skipped_));
     }
 
     const tinygltf::Model& model_;

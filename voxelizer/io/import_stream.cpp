@@ -94,12 +94,7 @@ const char* find_nonsense(const ImportedModel& model) {
     if (!all(model.face_materials, [&](std::uint32_t m) { return m < model.materials.size(); })) {
         return "a face has a material that is not there";
     }
-    if (!all(model.corner_colors, is_color)) return "a colour is not in 0 … 1";
-    if (!all(model.corner_texcoords, [](glm::vec2 t) { return std::isfinite(t.x) && std::isfinite(t.y); })) {
-        return "texture coordinates are not finite";
-    }
     for (const SurfaceMaterial& material : model.materials) {
-        if (!is_color(material.factor)) return "a material's colour is not in 0 … 1";
         if (material.image != SurfaceMaterial::kNoImage && material.image >= model.images.size()) {
             return "a material has an image that is not there";
         }
@@ -187,6 +182,20 @@ Expected<ImportedModel> parse_import(std::string_view bytes, bool& refused) {
     if (!take_model(reader, model)) return fail(fmt::format("{} bytes whose counts cannot be", bytes.size()));
     if (const char* nonsense = find_nonsense(model)) return fail(nonsense);
     return model;
+}
+
+const char* color_fault(const ImportedModel& model) {
+    const auto is_finite_pair = [](const glm::vec2& t) { return std::isfinite(t.x) && std::isfinite(t.y); };
+    if (!std::all_of(model.corner_colors.begin(), model.corner_colors.end(), is_color)) {
+        return "a vertex has a colour that is not in 0 … 1";
+    }
+    if (!std::all_of(model.corner_texcoords.begin(), model.corner_texcoords.end(), is_finite_pair)) {
+        return "texture coordinates are not finite";
+    }
+    for (const SurfaceMaterial& material : model.materials) {
+        if (!is_color(material.factor)) return "a material has a colour that is not in 0 … 1";
+    }
+    return nullptr;
 }
 
 }  // namespace xorvox::io

@@ -44,9 +44,11 @@ struct ImportedModel {
 std::string encode_import(const ImportedModel& model);
 std::string encode_import_error(std::string_view why);
 
-/// The model, checked: counts that the bytes have, finite numbers, indices below their ends, faces of three corners or
-/// more, colours in 0 … 1. Errors say what is wrong, without the name of a file; `refused` tells whether they are the
-/// importer's own.
+/// The model, checked: counts that the bytes have, finite positions, indices below their ends, faces of three corners
+/// or more. Errors say what is wrong, without the name of a file; `refused` tells whether they are the importer's own.
 Expected<ImportedModel> parse_import(std::string_view bytes, bool& refused);
+
+/// Null, or what is wrong with the model's colours: some not in 0 … 1, or texture coordinates that are not finite.
+const char* color_fault(const ImportedModel& model);
 
 }  // namespace xorvox::io
