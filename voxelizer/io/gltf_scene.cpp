@@ -174,11 +174,12 @@ private:
     Expected<void> read_colors(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t count,
                                std::size_t first_corner) {
         const std::vector<std::uint32_t>& indices = parsed_.mesh.indices;
+        if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) >= model_.materials.size()) {
+            return data_.refuse(
+                fmt::format("material {} of a file with {}", primitive.material, model_.materials.size()));
+        }
         const std::size_t material =
             primitive.material < 0 ? materials_.size() - 1 : static_cast<std::size_t>(primitive.material);
-        if (material >= materials_.size()) {
-            return data_.refuse(fmt::format("material {} of a file with {}", material, model_.materials.size()));
-        }
         const std::uint32_t number = number_of(material);
         for (std::size_t face = first_corner / 3; face < indices.size() / 3; ++face) colors_.set_material(face, number);
 
