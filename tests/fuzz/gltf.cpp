@@ -1,26 +1,13 @@
 // Arbitrary bytes as a glTF file: a sound mesh with colours of its corners and faces, and positions at any time.
 #include <vector>
 
+#include "tests/fuzz/io_colors.h"
 #include "tests/fuzz/io_mesh.h"
 #include "voxelizer/io/parsed_model.h"
 
 using namespace xorvox;
 
 namespace {
-
-void check_colors(const io::ParsedModel& parsed) {
-    const SurfaceColors& colors = parsed.colors;
-    const std::size_t corners = parsed.mesh.indices.size();
-    const std::size_t faces = parsed.mesh.view().face_count();
-    require(colors.corner_colors.empty() || colors.corner_colors.size() == corners);
-    require(colors.corner_texcoords.empty() || colors.corner_texcoords.size() == corners);
-    require(colors.face_materials.empty() || colors.face_materials.size() == faces);
-    for (const std::uint32_t material : colors.face_materials) require(material < colors.materials.size());
-    for (const SurfaceMaterial& material : colors.materials) {
-        require(material.image == SurfaceMaterial::kNoImage || material.image < colors.images.size());
-    }
-    for (const glm::vec2& t : colors.corner_texcoords) require(std::isfinite(t.x) && std::isfinite(t.y));
-}
 
 void check_motion(io::ParsedModel& parsed) {
     io::NodeMotion& motion = *parsed.motion;
