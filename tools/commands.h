@@ -19,9 +19,9 @@ namespace xorvox::tools {
 /// How a mesh file is to be read; shared by info, voxelize and show.
 struct MeshOptions {
     std::string path;
-    std::string unit;      ///< Of the file's numbers, which then become millimetres; empty: as they are.
-    std::string up;        ///< The file's axis that points up; empty: what its format defines.
-    bool strict = false;   ///< Refuse open meshes.
+    std::string unit;     ///< Of the file's numbers, which then become millimetres; empty: as they are.
+    std::string up;       ///< The file's axis that points up; empty: what its format defines.
+    bool strict = false;  ///< Refuse open meshes.
 };
 
 /// `--grid`, `--origin` and `--pitch` as typed; `--size` instead of the three.
