@@ -19,7 +19,7 @@
 namespace xorvox::tools {
 
 struct FrameMakerOptions {
-    host::LightMode light = host::LightMode::Bright;
+    host::LightSettings light;
     bool resampled = false;  ///< Voxelized on a grid of cubes, of which the display's samples then take the nearest.
     unsigned threads = 1;    ///< Of both steps.
 };

@@ -146,10 +146,10 @@ Expected<void> show(const ShowOptions& options) {
     if (!input) return tl::unexpected(input.error());
     const bool turns = options.spin_rpm.has_value();
     if (const auto fitted = fit_to_display(input->mesh, *display, options.mesh.path, turns); !fitted) return fitted;
-    const auto maker =
-        FrameMaker::make(*display, input->mesh, options.mesh.path, **color,
-                         {.light = options.light == "uniform" ? host::LightMode::Uniform : host::LightMode::Bright,
-                          .resampled = options.sampling == "cartesian"});
+    const auto maker = FrameMaker::make(
+        *display, input->mesh, options.mesh.path, **color,
+        {.light = {.mode = options.light == "uniform" ? host::LightMode::Uniform : host::LightMode::Bright},
+         .resampled = options.sampling == "cartesian"});
     if (!maker) return tl::unexpected(maker.error());
     const auto show_it = options.spin_rpm ? show_spinning : show_still;
     return show_it(options, *address, *display, input->mesh, **maker, png ? &*png : nullptr);

@@ -1,8 +1,10 @@
 #include "voxelizer/noise.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "voxelizer/elementary.h"
@@ -39,6 +41,11 @@ constexpr float kGradients[16][3] = {{1, 1, 0},  {-1, 1, 0},  {1, -1, 0}, {-1, -
                                      {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
                                      {1, 1, 0},  {0, -1, 1},  {-1, 1, 0}, {0, -1, -1}};
 
+glm::vec3 gradient(std::uint8_t hash) {
+    const auto& parts = kGradients[hash & 15];
+    return {parts[0], parts[1], parts[2]};
+}
+
 /// The offset's product with one of them.
 float along_gradient(std::uint8_t hash, float x, float y, float z) {
     const auto& gradient = kGradients[hash & 15];
@@ -59,30 +66,80 @@ float mix(float a, float b, float t) {
     return a + t * (b - a);
 }
 
+/// The lowest corner of the cell of whole numbers that a place is in.
+glm::vec3 cell_of(const glm::vec3& point) {
+    return {elementary::floor(point.x), elementary::floor(point.y), elementary::floor(point.z)};
+}
+
+/// The gradients at the corners of a cell: of corner (i, j, k) entry i + 2·j + 4·k.
+using CellGradients = std::array<glm::vec3, 8>;
+
+CellGradients gradients_of(const glm::vec3& cell) {
+    const int x = static_cast<int>(cell.x);
+    const int y = static_cast<int>(cell.y);
+    const int z = static_cast<int>(cell.z);
+    CellGradients gradients;
+    for (int i = 0; i < 2; ++i) {
+        const int along_x = permute(x + i) + y;
+        for (int j = 0; j < 2; ++j) {
+            const int along_y = permute(along_x + j) + z;
+            for (int k = 0; k < 2; ++k) {
+                gradients[static_cast<std::size_t>(i + 2 * j + 4 * k)] = gradient(permute(along_y + k));
+            }
+        }
+    }
+    return gradients;
+}
+
+/// Noise at an offset of 0 … 1 from the lowest corner of a cell.
+inline float in_cell(const CellGradients& gradients, const glm::vec3& offset) {
+    const auto corner = [&](int i, int j, int k) {
+        const glm::vec3& gradient = gradients[static_cast<std::size_t>(i + 2 * j + 4 * k)];
+        return gradient.x * (offset.x - static_cast<float>(i)) + gradient.y * (offset.y - static_cast<float>(j)) +
+               gradient.z * (offset.z - static_cast<float>(k));
+    };
+    const float u = fade(offset.x);
+    const float v = fade(offset.y);
+    const auto layer = [&](int k) {
+        return mix(mix(corner(0, 0, k), corner(1, 0, k), u), mix(corner(0, 1, k), corner(1, 1, k), u), v);
+    };
+    return mix(layer(0), layer(1), fade(offset.z));
+}
+
+/// Places that are looked at together, if they are in one cell.
+constexpr std::size_t kBlock = 8;
+
 }  // namespace
 
 float perlin_noise(const glm::vec3& point) {
     if (!is_in_range(point)) return 0.0f;
-    const float floor_x = elementary::floor(point.x);
-    const float floor_y = elementary::floor(point.y);
-    const float floor_z = elementary::floor(point.z);
-    const float x = point.x - floor_x;
-    const float y = point.y - floor_y;
-    const float z = point.z - floor_z;
-    const int cell_x = static_cast<int>(floor_x);
-    const int cell_y = static_cast<int>(floor_y);
-    const int cell_z = static_cast<int>(floor_z);
+    const glm::vec3 cell = cell_of(point);
+    return in_cell(gradients_of(cell), point - cell);
+}
 
-    const auto corner = [&](int i, int j, int k) {
-        const std::uint8_t hash = permute(permute(permute(cell_x + i) + cell_y + j) + cell_z + k);
-        return along_gradient(hash, x - static_cast<float>(i), y - static_cast<float>(j), z - static_cast<float>(k));
-    };
-    const float u = fade(x);
-    const float v = fade(y);
-    const auto layer = [&](int k) {
-        return mix(mix(corner(0, 0, k), corner(1, 0, k), u), mix(corner(0, 1, k), corner(1, 1, k), u), v);
-    };
-    return mix(layer(0), layer(1), fade(z));
+void perlin_noise(std::span<const glm::vec3> points, std::span<float> values) {
+    while (points.size() >= kBlock) {
+        const glm::vec3 cell = cell_of(points.front());
+        bool is_one_cell = true;
+        for (std::size_t i = 0; i < kBlock; ++i) is_one_cell = is_one_cell && cell_of(points[i]) == cell;
+        if (is_one_cell && is_in_range(cell)) {
+            const CellGradients gradients = gradients_of(cell);
+            std::array<float, kBlock> x, y, z, found;
+            for (std::size_t i = 0; i < kBlock; ++i) {
+                x[i] = points[i].x - cell.x;
+                y[i] = points[i].y - cell.y;
+                z[i] = points[i].z - cell.z;
+            }
+            // Nothing depends on tables here, so that compilers take several places at once.
+            for (std::size_t i = 0; i < kBlock; ++i) found[i] = in_cell(gradients, {x[i], y[i], z[i]});
+            std::ranges::copy(found, values.begin());
+        } else {
+            for (std::size_t i = 0; i < kBlock; ++i) values[i] = perlin_noise(points[i]);
+        }
+        points = points.subspan(kBlock);
+        values = values.subspan(kBlock);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = perlin_noise(points[i]);
 }
 
 float simplex_noise(const glm::vec3& point) {

@@ -1,6 +1,8 @@
 // Noise: gradient noise in three dimensions. Same bits on every machine; any number of threads.
 #pragma once
 
+#include <span>
+
 #include <glm/vec3.hpp>
 
 namespace xorvox {
@@ -9,6 +11,10 @@ namespace xorvox {
 /// point of whole coordinates, within ±1.04, mean about 0, features about one unit in size. It repeats every 256 units
 /// along each axis. The permutation is this project's own. 0 where a coordinate is beyond ±2^22 or no number.
 float perlin_noise(const glm::vec3& point);
+
+/// The same at many points, `values` has as many entries: up to three times as fast where neighbours in the row are so
+/// near to each other that most are in one cell of whole coordinates.
+void perlin_noise(std::span<const glm::vec3> points, std::span<float> values);
 
 /// Simplex noise (K. Perlin, "Noise Hardware", 2001, with the tetrahedra's corners reaching √½ so that it is
 /// continuous): smooth with three continuous derivatives, within ±1, mean about 0, features somewhat smaller than those

@@ -35,11 +35,6 @@ double height_at(const Motion& motion, double part) {
     return part;
 }
 
-double swept_height_mm(const Motion& motion, double part_of_lit) {
-    const double part = motion.dead_zone + part_of_lit * (1.0 - 2.0 * motion.dead_zone);
-    return motion.stroke_mm * (height_at(motion, part) - 0.5);
-}
-
 /// How `display` has turned in the middle of `slice`.
 double turns_in(const DisplayDescription& display, std::uint32_t slice) {
     const double turns = (slice + 0.5) / display.slices * (display.sweep_deg / 360.0);
@@ -96,6 +91,11 @@ DisplayExtent points_extent(const DisplayDescription& display) {
 }
 
 }  // namespace
+
+double swept_height_mm(const Motion& motion, double part_of_lit) {
+    const double part = motion.dead_zone + part_of_lit * (1.0 - 2.0 * motion.dead_zone);
+    return motion.stroke_mm * (height_at(motion, part) - 0.5);
+}
 
 UprightPixel upright_pixel(const Panel& panel, std::uint32_t column, std::uint32_t row) {
     const std::uint32_t right = panel.columns - 1;

@@ -56,6 +56,10 @@ private:
     std::vector<std::uint32_t> helix_k_;
 };
 
+/// Height of a swept plane at a part, 0 … 1, of the time in which an upward sweep is lit: slice s of S is lit from part
+/// s/S to (s + 1)/S.
+double swept_height_mm(const Motion& motion, double part_of_lit);
+
 /// LEDs of `panel` from left to right, and one above the other, as it is mounted.
 constexpr std::uint32_t upright_columns(const Panel& panel) {
     return panel.turned % 2 == 1 ? panel.rows : panel.columns;

@@ -5,33 +5,8 @@
 namespace xorvox::host {
 namespace {
 
-/// Where a channel's bits are in a pixel.
-struct Channel {
-    std::uint32_t shift;
-    std::uint32_t bits;
-};
-
-struct Channels {
-    Channel red, green, blue;
-};
-
-constexpr Channels channels(PixelFormat format) {
-    switch (format) {
-        // One level for all three: see quantize.
-        case PixelFormat::Mono1:
-        case PixelFormat::Mono2:
-        case PixelFormat::Mono4: break;
-        case PixelFormat::Rgb111: return {{0, 1}, {1, 1}, {2, 1}};
-        case PixelFormat::Rgb332: return {{5, 3}, {2, 3}, {0, 2}};
-        case PixelFormat::Rgb555: return {{10, 5}, {5, 5}, {0, 5}};
-        case PixelFormat::Rgb565: return {{11, 5}, {5, 6}, {0, 5}};
-        case PixelFormat::Rgb888: return {{0, 8}, {8, 8}, {16, 8}};
-    }
-    return {{0, 1}, {0, 1}, {0, 1}};
-}
-
 /// Written so that a NaN is dark.
-std::uint32_t level(float value, const Channel& channel) {
+std::uint32_t level(float value, const ChannelBits& channel) {
     const auto most = static_cast<float>((1u << channel.bits) - 1);
     const float clipped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
     return static_cast<std::uint32_t>(clipped * most + 0.5f) << channel.shift;
@@ -41,19 +16,36 @@ bool is_black(const glm::vec3& color) {
     return !(color.r > 0.0f || color.g > 0.0f || color.b > 0.0f);
 }
 
-/// Levels of one LED: those of the colour's luminance, by the weights of sRGB's primaries (IEC 61966-2-1).
-std::uint32_t gray_level(const glm::vec3& linear, std::uint32_t bits) {
-    const auto clipped = [](float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; };
-    const float gray = 0.2126f * clipped(linear.r) + 0.7152f * clipped(linear.g) + 0.0722f * clipped(linear.b);
-    return level(gray, {0, bits});
+}  // namespace
+
+std::array<ChannelBits, 3> channel_bits(PixelFormat format) {
+    switch (format) {
+        case PixelFormat::Mono1:
+        case PixelFormat::Mono2:
+        case PixelFormat::Mono4: break;
+        case PixelFormat::Rgb111: return {{{0, 1}, {1, 1}, {2, 1}}};
+        case PixelFormat::Rgb332: return {{{5, 3}, {2, 3}, {0, 2}}};
+        case PixelFormat::Rgb555: return {{{10, 5}, {5, 5}, {0, 5}}};
+        case PixelFormat::Rgb565: return {{{11, 5}, {5, 6}, {0, 5}}};
+        case PixelFormat::Rgb888: return {{{0, 8}, {8, 8}, {16, 8}}};
+    }
+    const ChannelBits gray{0, bits_per_pixel(format)};
+    return {gray, gray, gray};
 }
 
-}  // namespace
+float luminance(const glm::vec3& linear) {
+    return 0.2126f * linear.r + 0.7152f * linear.g + 0.0722f * linear.b;
+}
+
+glm::vec3 clipped(const glm::vec3& color) {
+    const auto clip = [](float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; };
+    return {clip(color.r), clip(color.g), clip(color.b)};
+}
 
 std::uint32_t quantize(glm::vec3 linear, PixelFormat format) {
     if (format == PixelFormat::Mono1) return is_black(linear) ? 0 : 1;
-    if (format == PixelFormat::Mono2 || format == PixelFormat::Mono4) return gray_level(linear, bits_per_pixel(format));
-    const auto [red, green, blue] = channels(format);
+    const auto [red, green, blue] = channel_bits(format);
+    if (is_mono(format)) return level(luminance(clipped(linear)), red);
     return level(linear.r, red) | level(linear.g, green) | level(linear.b, blue);
 }
 
@@ -61,11 +53,11 @@ std::uint32_t visible_code(glm::vec3 linear, PixelFormat format) {
     const std::uint32_t code = quantize(linear, format);
     if (code != 0 || is_black(linear)) return code;
     if (is_mono(format)) return 1;
-    const auto [red, green, blue] = channels(format);
+    const auto [red, green, blue] = channel_bits(format);
     // A NaN is dark here, too: it compares false.
     float strongest = 0.0f;
     for (int i = 0; i < 3; ++i) strongest = linear[i] > strongest ? linear[i] : strongest;
-    const auto lit = [&](float value, const Channel& channel) {
+    const auto lit = [&](float value, const ChannelBits& channel) {
         return value >= 0.5f * strongest ? 1u << channel.shift : 0u;
     };
     return lit(linear.r, red) | lit(linear.g, green) | lit(linear.b, blue);

@@ -1,6 +1,7 @@
 // Pixels: colours to codes, and codes to the bits of a row, as driver/display/description.h draws them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,6 +11,20 @@
 #include "driver/display/description.h"
 
 namespace xorvox::host {
+
+/// Where a channel's bits are in a pixel.
+struct ChannelBits {
+    std::uint32_t shift = 0;
+    std::uint32_t bits = 0;
+};
+/// Of red, green and blue; of mono formats all three are the one channel.
+std::array<ChannelBits, 3> channel_bits(PixelFormat format);
+
+/// The light of one LED that stands for a colour: its luminance, by the weights of sRGB's primaries (IEC 61966-2-1).
+float luminance(const glm::vec3& linear);
+
+/// The colour with every channel clipped to 0 … 1; what is no number is 0.
+glm::vec3 clipped(const glm::vec3& color);
 
 /// The code of a linear colour in `format`, in the low bits: each channel clipped to 0 … 1 and rounded to nearest.
 /// Mono1 has no levels: it is lit unless the colour is black. Mono2 and Mono4 show the colour's luminance.

@@ -18,6 +18,7 @@
 
 #include "driver/display/description.h"
 #include "driver/display/lattice.h"
+#include "driver/host/light.h"
 #include "voxelizer/bit_volume.h"
 
 namespace xorvox::host {
@@ -25,8 +26,6 @@ namespace xorvox::host {
 /// The Cartesian volume of a valid display: a regular lattice that fills the box of extent(display), its pitch as near
 /// to the pitches of the display as whole voxels allow.
 Lattice cartesian_grid(const DisplayDescription& display);
-
-enum class LightMode : std::uint8_t { Bright, Uniform };
 
 /// How often the voxels of the Cartesian volume are lit in one cycle when all samples that the mode allows are.
 struct SliceCoverage {
@@ -53,6 +52,7 @@ public:
     /// Uniform mode: clears the samples that are not to be lit. Ok or InvalidArgument. Any number of threads.
     Status thin(BitVolumeView samples) const;
 
+    /// Bright and Even light all samples.
     SliceCoverage coverage(LightMode mode) const;
 
     /// The voxel of sample (x, y, k): x + grid().nx·(y + grid().ny·z). And whether uniform mode lights it.

@@ -1,0 +1,32 @@
+// OneColor: rows of pixels in one code, eight at a time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "driver/display/description.h"
+
+namespace xorvox::host {
+
+class OneColor {
+public:
+    /// `code` is of `format`.
+    OneColor(std::uint32_t code, PixelFormat format);
+
+    std::uint32_t code() const { return code_; }
+
+    /// Sets the pixels of `bytes`, a row of the wire that is all dark, whose bits are set in `row`.
+    void paint(std::span<const std::uint64_t> row, std::span<std::byte> bytes) const;
+
+private:
+    static constexpr std::size_t kMostBytes = 24;
+
+    std::uint32_t code_;
+    std::uint32_t bits_;                                          ///< Of a pixel: bytes of eight.
+    std::array<std::array<std::byte, kMostBytes>, 256> eight_{};  ///< Entry b has the pixels whose bits b has.
+    std::array<std::byte, 8 * kMostBytes> all_{};                 ///< 64 pixels.
+};
+
+}  // namespace xorvox::host
