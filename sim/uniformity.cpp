@@ -16,7 +16,11 @@
 namespace xorvox::sim {
 namespace {
 
-constexpr double kVolumeToTell = 0.9;  ///< The part of the volume that cells must hold to be looked at.
+/// The part of the volume that cells with enough samples must hold. Two cells a side are alike on a rotor, so that
+/// three that tell less are better.
+double volume_to_tell(std::uint32_t cells_a_side) {
+    return cells_a_side > 3 ? 0.9 : 0.5;
+}
 
 /// By code, or of rgb888 by level, 256 for each channel.
 std::vector<float> luminance_table(const DisplayDescription& display) {
@@ -108,7 +112,7 @@ bool UniformityMeter::can_tell() const {
         all += cell.volume;
         if (cell.samples >= kLeastCellSamples) told += cell.volume;
     }
-    return told >= kVolumeToTell * all;
+    return told >= volume_to_tell(cells_a_side_) * all;
 }
 
 std::uint32_t UniformityMeter::cell_at(const glm::dvec3& place_mm) const {

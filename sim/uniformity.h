@@ -10,8 +10,9 @@
 // differs is the space that they are spread over: LEDs near the axis of a rotor sweep less of it in that time, and a
 // plane that swings dwells at its ends.
 //
-// n is at most 16, and the most for which cells with 64 samples or more hold nine tenths of the volume; cells with
-// fewer say nothing and are not looked at. Free points stand for no space, and count 1 each.
+// n is at most 16, and the most for which cells with 48 samples or more hold nine tenths of the volume, or half of it
+// where n is 3 or less; cells with fewer say nothing and are not looked at. Free points stand for no space, and count 1
+// each.
 #pragma once
 
 #include <array>
@@ -29,7 +30,7 @@
 namespace xorvox::sim {
 
 inline constexpr std::uint32_t kMostCellsASide = 16;
-inline constexpr std::uint32_t kLeastCellSamples = 64;
+inline constexpr std::uint32_t kLeastCellSamples = 48;
 
 struct Uniformity {
     std::uint32_t cells_a_side = 0;  ///< n.

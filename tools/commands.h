@@ -143,6 +143,12 @@ struct BenchDisplayOptions {
     bool json = false;
 };
 
+struct UniformityOptions {
+    std::vector<std::string> displays;  ///< Empty: every preset.
+    std::uint32_t frames = 8;           ///< Of dithering in time; at least 1.
+    bool json = false;
+};
+
 Expected<void> info(const InfoOptions& options);
 Expected<void> voxelize(const VoxelizeOptions& options);
 Expected<void> show(const ShowOptions& options);
@@ -154,5 +160,6 @@ Expected<void> validate(const ValidateOptions& options);
 Expected<void> control(const ControlOptions& options);
 Expected<void> plan(const PlanOptions& options);
 Expected<void> pattern(const PatternOptions& options);
+Expected<void> uniformity(const UniformityOptions& options);
 
 }  // namespace xorvox::tools

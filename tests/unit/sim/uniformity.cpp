@@ -74,12 +74,20 @@ TEST_CASE("a stack of even planes that is all white is even") {
     CHECK(found.most == Approx(found.mean));
 }
 
-TEST_CASE("cells are as small as 64 samples each allow, at most 16 a side") {
+TEST_CASE("cells are as small as 48 samples each allow, at most 16 a side") {
     CHECK(sim::UniformityMeter(stack_of(3, 3, 3)).result().cells_a_side == 1);
     CHECK(sim::UniformityMeter(stack_of(3, 3, 3)).result().cells == 0);
     CHECK(sim::UniformityMeter(stack_of(8, 8, 8)).result().cells_a_side == 2);
     CHECK(sim::UniformityMeter(stack_of(80, 80, 80)).result().cells_a_side == 16);
     CHECK(sim::UniformityMeter(stack_of(80, 80, 80)).result().cells == 4096);
+}
+
+TEST_CASE("of a small rotor the middle is told from the rim") {
+    DisplayDescription display = rotor_of(8, 10, 24, PixelFormat::Mono1, 1);
+    display.panels[0].offset_mm = 1.0;
+    const sim::Uniformity found = uniformity(display, white);
+    CHECK(found.cells_a_side == 3);
+    CHECK(found.ratio() > 2.0);
 }
 
 TEST_CASE("a darker half is found, where it is") {
