@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "driver/display/lattice.h"
 #include "driver/display/toml.h"
@@ -19,6 +19,7 @@
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/frame_maker.h"
+#include "tools/mesh_content.h"
 #include "tools/mesh_input.h"
 #include "tools/placement.h"
 
@@ -68,13 +69,16 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-void turn(const Mesh& mesh, double turns, std::vector<glm::dvec3>& positions) {
-    const double c = std::cos(2.0 * std::numbers::pi * turns);
-    const double s = std::sin(2.0 * std::numbers::pi * turns);
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const glm::dvec3& from = mesh.positions[i];
-        positions[i] = {c * from.x - s * from.y, s * from.x + c * from.y, from.z};
-    }
+glm::dmat4 turned(double turns) {
+    return glm::rotate(glm::dmat4(1.0), 2.0 * std::numbers::pi * turns, {0.0, 0.0, 1.0});
+}
+
+/// `mesh`, fitted into `display`.
+Expected<MeshContent> place(const Mesh& mesh, const std::string& source, const DisplayDescription& display,
+                            unsigned threads) {
+    std::vector<NamedMesh> meshes;
+    meshes.push_back({mesh, source});
+    return MeshContent::make(std::move(meshes), display, Turning::Upright, 0.0, threads);
 }
 
 /// A frame's payloads as whole packets, as they go to the link. Their bytes.
@@ -95,20 +99,21 @@ Expected<Steps> measure_frames(const DisplayDescription& display, const Mesh& me
     if (!color) return tl::unexpected(color.error());
     FrameMakerOptions options;
     options.threads = threads;
-    const auto maker = FrameMaker::make(display, mesh, source, **color, options);
+    auto content = place(mesh, source, display, threads);
+    if (!content) return tl::unexpected(content.error());
+    const auto maker = FrameMaker::make(display, *content, color->get(), options);
     if (!maker) return tl::unexpected(maker.error());
     host::FrameEncoder encoder({.max_packet_bytes = wire::kMaxPacketBytes, .lz4 = true});
     std::vector<std::byte> packet(wire::kMaxPacketBytes);
     std::vector<std::byte> frame(frame_bytes(display));
     std::vector<std::byte> base;
-    std::vector<glm::dvec3> positions(mesh.positions.size());
     std::vector<double> voxelize, paint, encode;
     Steps steps;
     // The first frames touch memory for the first time.
     for (int number = -2; number < frames; ++number) {
-        turn(mesh, number * kTurnAFrame, positions);
         const auto begin = Clock::now();
-        if (const auto made = (*maker)->voxelize(positions); !made) return tl::unexpected(made.error());
+        if (const auto made = (*maker)->draw(0.0, turned(number * kTurnAFrame)); !made)
+            return tl::unexpected(made.error());
         const double voxelized = since_ms(begin);
         if (const auto made = (*maker)->paint(frame); !made) return tl::unexpected(made.error());
         const double painted = since_ms(begin);
@@ -136,13 +141,15 @@ Expected<Resampling> measure_resampling(const DisplayDescription& display, const
     const auto color = host::parse_color("constant:white");
     if (!color) return tl::unexpected(color.error());
     FrameMakerOptions options;
-    const auto native = FrameMaker::make(display, mesh, source, **color, options);
+    auto content = place(mesh, source, display, 1);
+    if (!content) return tl::unexpected(content.error());
+    const auto native = FrameMaker::make(display, *content, color->get(), options);
     if (!native) return tl::unexpected(native.error());
-    if (const auto made = (*native)->voxelize(mesh.positions); !made) return tl::unexpected(made.error());
+    if (const auto made = (*native)->draw(); !made) return tl::unexpected(made.error());
     options.resampled = true;
-    const auto resampled = FrameMaker::make(display, mesh, source, **color, options);
+    const auto resampled = FrameMaker::make(display, *content, color->get(), options);
     if (!resampled) return tl::unexpected(resampled.error());
-    if (const auto made = (*resampled)->voxelize(mesh.positions); !made) return tl::unexpected(made.error());
+    if (const auto made = (*resampled)->draw(); !made) return tl::unexpected(made.error());
 
     Resampling result;
     result.inside = (*native)->volume().count();
@@ -170,10 +177,6 @@ Expected<Measured> measure(const std::string& name, const Mesh& mesh, const Benc
     const Expected<DisplayFile> display = load_display(name);
     if (!display) return tl::unexpected(display.error());
     if (const auto fits = check_display_fits(*display); !fits) return tl::unexpected(fits.error());
-    Mesh placed = mesh;
-    if (const auto fitted = fit_to_display(placed, *display, options.mesh, true); !fitted) {
-        return tl::unexpected(fitted.error());
-    }
     Measured measured;
     measured.name = display->name.view();
     measured.samples = frame_pixels(*display);
@@ -181,15 +184,15 @@ Expected<Measured> measure(const std::string& name, const Mesh& mesh, const Benc
     const Progress progress("measuring " + measured.name);
     const bool large = measured.samples > kLarge;
     const int frames = options.quick ? 3 : large ? 9 : 101;
-    const auto one = measure_frames(*display, placed, options.mesh, 1, frames);
+    const auto one = measure_frames(*display, mesh, options.mesh, 1, frames);
     if (!one) return tl::unexpected(one.error());
     measured.one = *one;
     if (large) {
-        const auto two = measure_frames(*display, placed, options.mesh, 2, frames);
+        const auto two = measure_frames(*display, mesh, options.mesh, 2, frames);
         if (!two) return tl::unexpected(two.error());
         measured.two = *two;
     }
-    const auto resampling = measure_resampling(*display, placed, options.mesh, options.quick ? 3 : large ? 5 : 51);
+    const auto resampling = measure_resampling(*display, mesh, options.mesh, options.quick ? 3 : large ? 5 : 51);
     if (!resampling) return tl::unexpected(resampling.error());
     measured.resampling = *resampling;
     return measured;

@@ -62,6 +62,10 @@ void examples(CLI::App& app, const std::string& text) {
 
 void add_mesh(CLI::App& app, MeshOptions& mesh) {
     app.add_option("mesh", mesh.path, "The mesh: a .ply, .stl or .obj file")->required()->type_name("MESH");
+    add_reading(app, mesh);
+}
+
+void add_reading(CLI::App& app, MeshOptions& mesh) {
     app.add_option("--unit", mesh.unit, "The unit of the file's numbers, which then become millimetres")
         ->type_name("mm|cm|m|in|ft");
     app.add_option("--up", mesh.up,

@@ -21,6 +21,7 @@ struct AllOptions {
     InfoOptions info;
     VoxelizeOptions voxelize;
     ShowOptions show;
+    PlayOptions play;
     SimOptions sim;
     BenchOptions bench;
     BenchDisplayOptions bench_display;
@@ -46,9 +47,13 @@ Command bench_command(CLI::App& program, AllOptions& options);
 /// The lines below an `Examples:` at the end of a command's help.
 void examples(CLI::App& app, const std::string& text);
 
-/// The mesh and how it is read; add_strict() the refusal of open ones.
+/// The mesh, add_reading() how it is read, and add_strict() the refusal of open ones.
 void add_mesh(CLI::App& app, MeshOptions& mesh);
+void add_reading(CLI::App& app, MeshOptions& mesh);
 void add_strict(CLI::App& app, MeshOptions& mesh);
+
+/// How colours become light; for the commands that show models.
+void add_light(CLI::App& app, LightOptions& light);
 
 /// "64" into a number of things, at most `most`. A CLI::ValidationError says what is wrong; so below.
 std::uint32_t parse_count(const std::string& option, const std::string& text, std::uint32_t most);

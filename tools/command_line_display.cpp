@@ -1,6 +1,10 @@
 // The commands about displays: show, sim, displays, validate, plan, pattern and control.
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "driver/host/white.h"
+#include "tools/color_choice.h"
 #include "tools/command_line.h"
 
 namespace xorvox::tools {
@@ -56,45 +60,83 @@ CLI::Option* add_positive(CLI::App& app, const std::string& name, std::function<
         ->type_name(type);
 }
 
-Command show_command(CLI::App& program, ShowOptions& options) {
-    CLI::App& app = *program.add_subcommand("show", "Show a mesh on a display, or on a simulated one");
-    add_mesh(app, options.mesh);
+/// What is shown, on what and how; for show and play.
+void add_stage(CLI::App& app, StageOptions& options) {
     add_strict(app, options.mesh);
     add_display(app, options.display);
-    app.add_option(
-           "--color", options.color,
-           "constant:NAME, constant:#rrggbb, gradient (the default), gradient:NAME,NAME from bottom to top, noise, "
-           "noise:SCALE or a formula, 'expr: hsv(noise(8*p), 1, z)'; NAME is a colour as in CSS, and a wrong one lists "
-           "them all")
+    app.add_option("--color", options.color,
+                   "Which colour each lit voxel has (default gradient): " + color_kinds() +
+                       ". COLOR is a name as in CSS or #rrggbb, and a wrong one lists them all; own is the model's own "
+                       "colours. "
+                       "docs/color.md shows each kind")
         ->type_name("KIND:ARGS");
-    app.add_option(
-           "--light", options.light,
-           "bright: every sample inside is lit (the default); uniform: each voxel once a panel, so that a rotor "
-           "is as bright at its rim as at its axis")
-        ->check(CLI::IsMember({"bright", "uniform"}).description(""))
-        ->type_name("bright|uniform");
+    add_light(app, options.light);
     app.add_option(
            "--sampling", options.sampling,
            "native: voxelize at the display's own samples, exactly (the default); cartesian: on a grid of cubes "
            "first, which the samples then take the nearest voxel of")
         ->check(CLI::IsMember({"native", "cartesian"}).description(""))
         ->type_name("native|cartesian");
-    CLI::Option* const spin =
-        app.add_option_function<std::string>(
-               "--spin", [&options](const std::string& text) { options.spin_rpm = parse_positive("--spin", text); },
-               "Turn the model about its upright axis so many times a minute, a new frame each "
-               "time the display can show one, and tell how steadily they came")
-            ->type_name("RPM");
+    add_delivery(app, options.delivery);
+}
+
+Command show_command(CLI::App& program, ShowOptions& options) {
+    CLI::App& app = *program.add_subcommand("show", "Show a mesh on a display, or on a simulated one");
+    add_mesh(app, options.stage.mesh);
+    add_stage(app, options.stage);
+    CLI::Option* const spin = add_positive(
+        app, "--spin", [&options](double rpm) { options.spin_rpm = rpm; }, "RPM",
+        "Turn the model about its upright axis so many times a minute, a new frame each time the display can show one, "
+        "and tell how steadily they came");
     add_positive(
         app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
         "How long to spin (default 10)")
         ->needs(spin);
-    add_delivery(app, options.delivery);
     examples(app,
              "  xorvox show bunny.ply --up y --display vortex --png bunny.png\n"
              "  xorvox show bunny.ply --up y --display cube16-ws2812 --color constant:orange --to tcp:127.0.0.1:7777\n"
              "  xorvox show bunny.ply --up y --display vortex --spin 6 --seconds 20 --to tcp:127.0.0.1:7777");
     return {&app, [&options] { return show(options); }};
+}
+
+Command play_command(CLI::App& program, PlayOptions& options) {
+    CLI::App& app = *program.add_subcommand(
+        "play", "Show what moves: a model by keyframes, a sequence of files, an animation; see docs/play.md");
+    app.add_option("files", options.files, "A model, or several that are shown one after the other")
+        ->required()
+        ->type_name("FILE");
+    add_reading(app, options.stage.mesh);
+    add_stage(app, options.stage);
+    CLI::Option* const timeline =
+        app.add_option("--timeline", options.timeline, "How it moves: keyframes in a file")->type_name("FILE.toml");
+    app.add_option("--motion", options.motion,
+                   "The same as typed: how the model moves and turns, as in 'at=0; at=4 turn=0,0,360 move=0,0,10'")
+        ->excludes(timeline)
+        ->type_name("KEYFRAMES");
+    app.add_option("--camera", options.camera,
+                   "How the display moves through the scene, as in 'at=0; at=5 center=10,0,0 zoom=3 ease=smooth'")
+        ->excludes(timeline)
+        ->type_name("KEYFRAMES");
+    add_positive(
+        app, "--spin", [&options](double rpm) { options.spin_rpm = rpm; }, "RPM",
+        "Turn the model about its upright axis so many times a minute");
+    add_positive(
+        app, "--fps", [&options](double fps) { options.stage.files_per_second = fps; }, "N",
+        "Files, or frames of a file that has no time of its own, a second (default 10)");
+    add_positive(
+        app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
+        "How long to play (default: until all has moved once)");
+    app.add_flag("--loop", options.loop, "Begin anew at the end, until interrupted or for --seconds");
+    app.parse_complete_callback([&options] {
+        if (options.files.empty()) return;
+        options.stage.mesh.path = options.files.front();
+        options.stage.following.assign(options.files.begin() + 1, options.files.end());
+    });
+    examples(app,
+             "  xorvox play bunny.ply --up y --display vortex --motion 'at=0; at=4 turn=0,0,360' --png last.png\n"
+             "  xorvox play walk*.obj --fps 12 --loop --display cube16-ws2812 --to tcp:127.0.0.1:7777\n"
+             "  xorvox play bunny.ply --up y --display vortex --timeline flight.toml --to tcp:127.0.0.1:7777");
+    return {&app, [&options] { return play(options); }};
 }
 
 Command sim_command(CLI::App& program, SimOptions& options) {
@@ -217,13 +259,69 @@ Command uniformity_command(CLI::App& program, UniformityOptions& options) {
     return {&app, [&options] { return uniformity(options); }};
 }
 
+/// "0.9,1,0.85" or "5000" into `light`.
+void parse_white(const std::string& text, LightOptions& light) {
+    const std::vector<double> numbers = parse_numbers(text);
+    const auto is_gain = [](double number) { return number >= 0.0 && number <= 1.0; };
+    light.white.reset();
+    light.white_kelvin.reset();
+    if (numbers.size() == 1 && numbers[0] >= host::kLeastKelvin && numbers[0] <= host::kMostKelvin) {
+        light.white_kelvin = numbers[0];
+    } else if (numbers.size() == 3 && std::ranges::all_of(numbers, is_gain)) {
+        light.white = glm::dvec3(numbers[0], numbers[1], numbers[2]);
+    } else {
+        throw CLI::ValidationError(
+            "--white", fmt::format("'{}' is neither three gains from 0 to 1, as in 1,0.8,0.7, nor one number of "
+                                   "kelvin from {:g} to {:g}, as in 5000",
+                                   text, host::kLeastKelvin, host::kMostKelvin));
+    }
+}
+
 }  // namespace
 
+void add_light(CLI::App& app, LightOptions& light) {
+    app.add_option(
+           "--light", light.mode,
+           "bright: every sample inside is lit in full (the default); uniform: each voxel once a panel, so that a "
+           "rotor is as bright at its rim as at its axis; even: all of them, dimmed where they stand close together")
+        ->check(CLI::IsMember({"bright", "uniform", "even"}).description(""))
+        ->type_name("bright|uniform|even");
+    app.add_option(
+           "--dither", light.dither,
+           "Light between two levels of the display: none, the nearest level (the default); ordered, mixed over "
+           "neighbours; temporal, mixed over 64 frames as well, for what moves")
+        ->check(CLI::IsMember({"none", "ordered", "temporal"}).description(""))
+        ->type_name("none|ordered|temporal");
+    app.add_option_function<std::string>(
+           "--brightness",
+           [&light](const std::string& text) {
+               const std::vector<double> numbers = parse_numbers(text);
+               if (numbers.size() != 1 || !(numbers[0] >= 0.0 && numbers[0] <= 100.0)) {
+                   throw CLI::ValidationError("--brightness", fmt::format("'{}' is not a number from 0 to 100", text));
+               }
+               light.brightness_percent = numbers[0];
+           },
+           "Of all light, 0 to 100 (the default)")
+        ->type_name("PERCENT");
+    app.add_option_function<std::string>(
+           "--white", [&light](const std::string& text) { parse_white(text, light); },
+           "White balance: gains of red, green and blue from 0 to 1, or a colour temperature from 1500 to 15000")
+        ->type_name("R,G,B|KELVIN");
+    app.add_option("--calibration", light.calibration,
+                   "How bright each LED is beside the others, measured; docs/light.md has the format")
+        ->type_name("FILE.csv");
+}
+
 std::vector<Command> display_commands(CLI::App& program, AllOptions& options) {
-    return {show_command(program, options.show),         sim_command(program, options.sim),
-            displays_command(program, options.displays), validate_command(program, options.validate),
-            plan_command(program, options.plan),         pattern_command(program, options.pattern),
-            control_command(program, options.control),   uniformity_command(program, options.uniformity)};
+    return {show_command(program, options.show),
+            play_command(program, options.play),
+            sim_command(program, options.sim),
+            displays_command(program, options.displays),
+            validate_command(program, options.validate),
+            plan_command(program, options.plan),
+            pattern_command(program, options.pattern),
+            control_command(program, options.control),
+            uniformity_command(program, options.uniformity)};
 }
 
 }  // namespace xorvox::tools

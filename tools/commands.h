@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "tools/light_options.h"
 #include "voxelizer/error.h"
 #include "voxelizer/region.h"
 #include "voxelizer/simplicial.h"
@@ -72,15 +73,33 @@ struct DeliveryOptions {
     bool json = false;
 };
 
-struct ShowOptions {
+/// What is shown, on what, and how; shared by show and play.
+struct StageOptions {
     MeshOptions mesh;
+    std::vector<std::string> following;  ///< More files of the same kind, shown one after the other.
+    double files_per_second = 10.0;
     std::string display;
     std::string color = "gradient";
-    std::string light = "bright";     ///< Or "uniform".
+    LightOptions light;
     std::string sampling = "native";  ///< Or "cartesian".
-    std::optional<double> spin_rpm;   ///< Turn the model, streaming frames at the display's own rate.
-    double seconds = 10.0;            ///< Of spinning.
     DeliveryOptions delivery;
+};
+
+struct ShowOptions {
+    StageOptions stage;
+    std::optional<double> spin_rpm;  ///< Turn the model, streaming frames at the display's own rate.
+    double seconds = 10.0;           ///< Of spinning.
+};
+
+struct PlayOptions {
+    StageOptions stage;
+    std::vector<std::string> files;
+    std::string timeline;  ///< A file; empty: none. Without one:
+    std::string motion;    ///< Keyframes as host::parse_track() takes them; empty: none.
+    std::string camera;
+    std::optional<double> spin_rpm;
+    std::optional<double> seconds;  ///< None: as long as what moves needs.
+    bool loop = false;
 };
 
 struct PatternOptions {
@@ -152,6 +171,7 @@ struct UniformityOptions {
 Expected<void> info(const InfoOptions& options);
 Expected<void> voxelize(const VoxelizeOptions& options);
 Expected<void> show(const ShowOptions& options);
+Expected<void> play(const PlayOptions& options);
 Expected<void> sim(const SimOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> bench_displays(const BenchDisplayOptions& options);

@@ -3,72 +3,59 @@
 #include <atomic>
 #include <cstdint>
 #include <thread>
-#include <utility>
 #include <vector>
 
-#include "voxelizer/voxelize.h"
-
 namespace xorvox::tools {
-namespace {
 
-SolidOptions solid_options(unsigned threads) {
-    SolidOptions options;
-    options.threads = threads;
-    return options;
-}
-
-}  // namespace
-
-FrameMaker::FrameMaker(const DisplayDescription& display, const Mesh& mesh, std::string source,
-                       const host::ColorField& color, const FrameMakerOptions& options)
-    : source_(std::move(source)),
-      mesh_(mesh),
-      slices_(display.slices),
+FrameMaker::FrameMaker(const DisplayDescription& display, Content& content, const host::ColorField* color,
+                       const FrameMakerOptions& options)
+    : content_(content),
       color_(color),
+      slices_(display.slices),
       painter_(display, options.light),
+      budget_(display),
+      brightness_(options.light.brightness),
       volume_(painter_.lattice().view()),
-      threads_(options.threads),
-      voxelizer_(solid_options(options.threads)) {
+      threads_(options.threads) {
     if (!options.resampled) return;
     map_.emplace(display, painter_.lattice());
     cartesian_ = BitVolume(map_->grid());
 }
 
-Expected<std::unique_ptr<FrameMaker>> FrameMaker::make(const DisplayDescription& display, const Mesh& mesh,
-                                                       std::string source, const host::ColorField& color,
+Expected<std::unique_ptr<FrameMaker>> FrameMaker::make(const DisplayDescription& display, Content& content,
+                                                       const host::ColorField* color,
                                                        const FrameMakerOptions& options) {
-    std::unique_ptr<FrameMaker> maker(new FrameMaker(display, mesh, std::move(source), color, options));
-    if (const auto begun = maker->begin(); !begun) return tl::unexpected(begun.error());
+    std::unique_ptr<FrameMaker> maker(new FrameMaker(display, content, color, options));
+    const Lattice lattice = maker->map_ ? maker->map_->grid() : maker->painter_.lattice().view();
+    if (const auto set = content.set_lattice(lattice); !set) return tl::unexpected(set.error());
     return maker;
 }
 
-Expected<void> FrameMaker::begin() {
-    SolidReport report;
-    Status status = voxelizer_.set_mesh(mesh_.view(), &report);
-    if (status == Status::Ok) status = voxelizer_.set_lattice(drawn_on());
-    if (status == Status::Ok) return {};
-    return fail(source_ + ": " + describe_failure(status, mesh_.view(), drawn_on(), report).message);
-}
-
-Expected<void> FrameMaker::voxelize(std::span<const glm::dvec3> positions) {
-    SolidReport report;
-    Status status = voxelizer_.set_positions(positions);
-    if (status == Status::Ok) status = voxelizer_.solid(map_ ? cartesian_.view() : volume_.view(), &report);
-    if (status != Status::Ok) {
-        MeshView moved = mesh_.view();
-        moved.positions = positions;
-        return fail(source_ + ": " + describe_failure(status, moved, drawn_on(), report).message);
-    }
+Expected<void> FrameMaker::draw(double seconds, const glm::dmat4& pose) {
+    if (const auto drawn = content_.draw(seconds, pose, map_ ? cartesian_.view() : volume_.view()); !drawn)
+        return drawn;
     if (map_ && map_->sample(cartesian_.view(), volume_.view()) != Status::Ok) return fail("resampling failed");
     return {};
 }
 
-Expected<void> FrameMaker::paint(std::span<std::byte> frame) const {
+Expected<void> FrameMaker::paint(std::span<std::byte> frame, std::uint32_t number) {
+    do {
+        dimmed_to_ = budget_.factor();
+        painter_.set_brightness(brightness_ * dimmed_to_);
+        if (const auto painted = paint_once(frame, number); !painted) return painted;
+    } while (!budget_.allows(frame));
+    return {};
+}
+
+Expected<void> FrameMaker::paint_once(std::span<std::byte> frame, std::uint32_t number) {
+    const host::ColorField* const color = color_ != nullptr ? color_ : content_.own_color();
+    if (color == nullptr) return fail("there is no colour to paint with");
     std::atomic<bool> painted = true;
     const auto paint_part = [&](unsigned part) {
         const auto begin = static_cast<std::uint32_t>(std::uint64_t{slices_} * part / threads_);
         const auto end = static_cast<std::uint32_t>(std::uint64_t{slices_} * (part + 1) / threads_);
-        if (painter_.paint_slices(volume_.view(), color_, frame, begin, end - begin) != Status::Ok) painted = false;
+        const Status status = painter_.paint_slices(volume_.view(), *color, frame, begin, end - begin, number);
+        if (status != Status::Ok) painted = false;
     };
     {
         std::vector<std::jthread> others;

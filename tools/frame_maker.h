@@ -1,4 +1,4 @@
-// FrameMaker: from a mesh in a display's millimetres to its frames, while the mesh moves.
+// FrameMaker: from what is shown to the frames of a display.
 #pragma once
 
 #include <cstddef>
@@ -6,56 +6,58 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
+
+#include <glm/mat4x4.hpp>
 
 #include "driver/display/description.h"
 #include "driver/host/color.h"
+#include "driver/host/power_budget.h"
 #include "driver/host/slice_map.h"
 #include "driver/host/slices.h"
+#include "tools/content.h"
 #include "voxelizer/bit_volume.h"
-#include "voxelizer/mesh.h"
-#include "voxelizer/solid_voxelizer.h"
 
 namespace xorvox::tools {
 
 struct FrameMakerOptions {
-    host::LightSettings light;
-    bool resampled = false;  ///< Voxelized on a grid of cubes, of which the display's samples then take the nearest.
-    unsigned threads = 1;    ///< Of both steps.
+    host::LightSettings light;  ///< What it borrows is used until the maker is made.
+    bool resampled = false;     ///< Voxelized on a grid of cubes, of which the display's samples then take the nearest.
+    unsigned threads = 1;       ///< That paint.
 };
 
 class FrameMaker {
 public:
-    /// Borrows `display`, `mesh`, which messages call `source`, and `color` for the maker's life.
-    static Expected<std::unique_ptr<FrameMaker>> make(const DisplayDescription& display, const Mesh& mesh,
-                                                      std::string source, const host::ColorField& color,
-                                                      const FrameMakerOptions& options);
+    /// Borrows `display`, `content` and `color` for the maker's life. Without a colour, that of the content, which must
+    /// bring one.
+    static Expected<std::unique_ptr<FrameMaker>> make(const DisplayDescription& display, Content& content,
+                                                      const host::ColorField* color, const FrameMakerOptions& options);
 
-    /// Puts the vertices at `positions`, as many as the mesh has, which are borrowed until the next call; sets
-    /// `volume()` to the samples inside.
-    Expected<void> voxelize(std::span<const glm::dvec3> positions);
-    /// Colours volume() into `frame`, frame_bytes(display) long.
-    Expected<void> paint(std::span<std::byte> frame) const;
+    /// Sets `volume()` to the samples inside of the content after `seconds`, moved by `pose`.
+    Expected<void> draw(double seconds = 0.0, const glm::dmat4& pose = glm::dmat4(1.0));
+    /// Colours volume() into `frame`, frame_bytes(display) long. `number` is the frame's, from 0 in steps of 1. Where
+    /// the display's supply has a limit, all light is dimmed to keep it; dimmed_to() says how far.
+    Expected<void> paint(std::span<std::byte> frame, std::uint32_t number = 0);
+    float dimmed_to() const { return dimmed_to_; }
 
     /// On the lattice of the display.
     const BitVolume& volume() const { return volume_; }
 
 private:
-    FrameMaker(const DisplayDescription& display, const Mesh& mesh, std::string source, const host::ColorField& color,
+    FrameMaker(const DisplayDescription& display, Content& content, const host::ColorField* color,
                const FrameMakerOptions& options);
-    Expected<void> begin();
-    Lattice drawn_on() const { return map_ ? map_->grid() : painter_.lattice().view(); }
+    Expected<void> paint_once(std::span<std::byte> frame, std::uint32_t number);
 
-    std::string source_;
-    const Mesh& mesh_;
+    Content& content_;
+    const host::ColorField* color_;  ///< Null: the content's.
     std::uint32_t slices_;
-    const host::ColorField& color_;
     host::FramePainter painter_;
+    host::PowerBudget budget_;
+    float brightness_;
+    float dimmed_to_ = 1.0f;
     BitVolume volume_;
     std::optional<host::SliceMap> map_;  ///< Where resampled.
     BitVolume cartesian_;
     unsigned threads_;
-    SolidVoxelizer voxelizer_;
 };
 
 }  // namespace xorvox::tools

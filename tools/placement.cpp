@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "driver/display/lattice.h"
 #include "voxelizer/fit.h"
@@ -97,36 +99,53 @@ Expected<void> check_display_fits(const DisplayDescription& display) {
         fmt::format("the display {}", display.name.view()));
 }
 
-Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, const std::string& source, bool turns) {
-    const Expected<Box> box = bounds(mesh.view());
-    if (!box) return fail(source + ": " + box.error().message);
-    const DisplayExtent room = extent(display);
-    const glm::dvec3 center = (box->lower + box->upper) / 2.0;
-    const glm::dvec3 size = box->upper - box->lower;
-    const glm::dvec3 space = room.upper - room.lower;
+glm::dmat4 Placement::matrix() const {
+    const glm::dmat4 one(1.0);
+    return glm::translate(one, middle) * glm::scale(one, glm::dvec3(scale)) * glm::translate(one, -center);
+}
 
-    double scale = std::numeric_limits<double>::infinity();
+Expected<Placement> fit_to_display(std::span<const glm::dvec3> points, const DisplayDescription& display,
+                                   const std::string& source, Turning turning) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    glm::dvec3 lower(kInfinity);
+    glm::dvec3 upper(-kInfinity);
+    for (const glm::dvec3& point : points) {
+        lower = glm::min(lower, point);
+        upper = glm::max(upper, point);
+    }
+    const DisplayExtent room = extent(display);
+    const glm::dvec3 center = (lower + upper) / 2.0;
+    const glm::dvec3 size = upper - lower;
+    const glm::dvec3 space = room.upper - room.lower;
+    if (!points.empty() && !(std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(size.z))) {
+        return fail(fmt::format("{}: it is larger than numbers go; choose another --unit", source));
+    }
+
+    double scale = kInfinity;
     const auto limit = [&scale](double available, double needed) {
         if (needed > 0.0) scale = std::min(scale, available / needed);
     };
-    limit(space.z, size.z);
-    if (room.radius_mm > 0.0 || turns) {
-        const double radius = room.radius_mm > 0.0 ? room.radius_mm : std::min(space.x, space.y) / 2.0;
+    const auto farthest = [&](auto distance) {
         double reach = 0.0;
-        for (const std::uint32_t index : mesh.indices) {
-            reach = std::max(reach, glm::distance(glm::dvec2(mesh.positions[index]), glm::dvec2(center)));
-        }
-        limit(radius, reach);
+        for (const glm::dvec3& point : points) reach = std::max(reach, distance(point));
+        return reach;
+    };
+    const double radius = room.radius_mm > 0.0 ? room.radius_mm : std::min(space.x, space.y) / 2.0;
+    if (turning == Turning::Anyhow) {
+        limit(std::min(radius, space.z / 2.0), farthest([&](const auto& p) { return glm::distance(p, center); }));
     } else {
-        limit(space.x, size.x);
-        limit(space.y, size.y);
+        limit(space.z, size.z);
+        if (room.radius_mm > 0.0 || turning == Turning::Upright) {
+            limit(radius, farthest([&](const auto& p) { return glm::distance(glm::dvec2(p), glm::dvec2(center)); }));
+        } else {
+            limit(space.x, size.x);
+            limit(space.y, size.y);
+        }
     }
     if (!std::isfinite(scale) || scale <= 0.0) {
-        return fail(fmt::format("{}: all vertices are at one place; there is nothing to show", source));
+        return fail(fmt::format("{}: all of it is at one place; there is nothing to show", source));
     }
-    const glm::dvec3 middle = (room.lower + room.upper) / 2.0;
-    for (glm::dvec3& position : mesh.positions) position = (position - center) * (scale * kFilled) + middle;
-    return {};
+    return Placement{center, scale * kFilled, (room.lower + room.upper) / 2.0};
 }
 
 }  // namespace xorvox::tools

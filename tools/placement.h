@@ -1,5 +1,12 @@
-// Where voxels go: the lattice that --size or --grid asks for, and a mesh scaled to stand inside a display.
+// Where voxels go: the lattice that --size or --grid asks for, and a model scaled to stand inside a display.
 #pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 #include "driver/display/description.h"
 #include "tools/commands.h"
@@ -22,9 +29,22 @@ Expected<void> check_memory(std::uint64_t bytes, const std::string& what);
 /// lattice and a volume.
 Expected<void> check_display_fits(const DisplayDescription& display);
 
-/// Scales the mesh uniformly and moves it so that it fills the display's extent, centred, its z axis up. One that
-/// `turns` about the middle of the display stays within it.
-Expected<void> fit_to_display(Mesh& mesh, const DisplayDescription& display, const std::string& source,
-                              bool turns = false);
+/// How something turns about the middle of the display.
+enum class Turning : std::uint8_t { Not, Upright, Anyhow };
+
+/// From a file's units to a display's millimetres: a uniform scale and a move.
+struct Placement {
+    glm::dvec3 center{0.0};  ///< In the file's units; it comes to `middle`.
+    double scale = 1.0;
+    glm::dvec3 middle{0.0};
+
+    glm::dvec3 place(const glm::dvec3& point) const { return (point - center) * scale + middle; }
+    glm::dmat4 matrix() const;
+};
+
+/// The placement of what has its outermost points among `points` so that it fills the display's extent, centred, its z
+/// axis up, and stays within it however it turns.
+Expected<Placement> fit_to_display(std::span<const glm::dvec3> points, const DisplayDescription& display,
+                                   const std::string& source, Turning turning = Turning::Not);
 
 }  // namespace xorvox::tools

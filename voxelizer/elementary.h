@@ -121,6 +121,45 @@ inline double cos(double x) {
     return sine(x, 1);
 }
 
+/// The angle of (x, y) from the x axis, -π to π; 0 for (0, 0). x and y finite. Absolute error below 1e-15.
+inline double atan2(double y, double x) {
+    const double width = x < 0.0 ? -x : x;
+    const double height = y < 0.0 ? -y : y;
+    const bool is_steep = height > width;
+    const double less = is_steep ? width : height;
+    const double more = is_steep ? height : width;
+    // An angle of up to π/4, or up to π/8 either way of it.
+    const double slope = more > 0.0 ? less / more : 0.0;
+    const bool is_turned = slope > 0x1.a827999fcef32p-2;  // tan(π/8)
+    const double t = is_turned ? (slope - 1.0) / (slope + 1.0) : slope;
+    const double q = t * t;
+    double sum = 1.0 / 39.0;
+    sum = 1.0 / 37.0 - sum * q;
+    sum = 1.0 / 35.0 - sum * q;
+    sum = 1.0 / 33.0 - sum * q;
+    sum = 1.0 / 31.0 - sum * q;
+    sum = 1.0 / 29.0 - sum * q;
+    sum = 1.0 / 27.0 - sum * q;
+    sum = 1.0 / 25.0 - sum * q;
+    sum = 1.0 / 23.0 - sum * q;
+    sum = 1.0 / 21.0 - sum * q;
+    sum = 1.0 / 19.0 - sum * q;
+    sum = 1.0 / 17.0 - sum * q;
+    sum = 1.0 / 15.0 - sum * q;
+    sum = 1.0 / 13.0 - sum * q;
+    sum = 1.0 / 11.0 - sum * q;
+    sum = 1.0 / 9.0 - sum * q;
+    sum = 1.0 / 7.0 - sum * q;
+    sum = 1.0 / 5.0 - sum * q;
+    sum = 1.0 / 3.0 - sum * q;
+    const double part = t - t * q * sum;
+    constexpr double kPi = 0x1.921fb54442d18p1;
+    const double eighth = is_turned ? kPi / 4.0 + part : part;
+    const double quarter = is_steep ? kPi / 2.0 - eighth : eighth;
+    const double half = x < 0.0 ? kPi - quarter : quarter;
+    return y < 0.0 ? -half : half;
+}
+
 /// a^b; of a negative a for whole b only, else NaN. a^0 is 1. Relative error below 1e-15 times (1 + |b log a|).
 inline double pow(double a, double b) {
     const double size = exp(b * log(a < 0.0 ? -a : a));

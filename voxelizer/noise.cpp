@@ -171,4 +171,8 @@ float simplex_noise(const glm::vec3& point) {
     return kSimplexScale * sum;
 }
 
+void simplex_noise(std::span<const glm::vec3> points, std::span<float> values) {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = simplex_noise(points[i]);
+}
+
 }  // namespace xorvox

@@ -21,4 +21,7 @@ void perlin_noise(std::span<const glm::vec3> points, std::span<float> values);
 /// of perlin_noise and less aligned with the axes. 0 where a coordinate is beyond ±2^22 or no number.
 float simplex_noise(const glm::vec3& point);
 
+/// The same at many points. `values` has as many entries.
+void simplex_noise(std::span<const glm::vec3> points, std::span<float> values);
+
 }  // namespace xorvox

@@ -3,33 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdint>
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "driver/host/color_list.h"
 #include "driver/host/color_space.h"
 #include "voxelizer/expression.h"
 #include "voxelizer/noise.h"
 
 namespace xorvox::host {
 namespace {
-
-struct Name {
-    std::string_view name;
-    std::uint32_t rrggbb;
-};
-
-/// The sixteen names of HTML 4, and a few more, all with the values of CSS Color Level 4.
-constexpr Name kNames[] = {
-    {"black", 0x000000},     {"silver", 0xc0c0c0}, {"gray", 0x808080},    {"white", 0xffffff},  {"maroon", 0x800000},
-    {"red", 0xff0000},       {"purple", 0x800080}, {"fuchsia", 0xff00ff}, {"green", 0x008000},  {"lime", 0x00ff00},
-    {"olive", 0x808000},     {"yellow", 0xffff00}, {"navy", 0x000080},    {"blue", 0x0000ff},   {"teal", 0x008080},
-    {"aqua", 0x00ffff},      {"cyan", 0x00ffff},   {"magenta", 0xff00ff}, {"orange", 0xffa500}, {"gold", 0xffd700},
-    {"pink", 0xffc0cb},      {"coral", 0xff7f50},  {"crimson", 0xdc143c}, {"violet", 0xee82ee}, {"indigo", 0x4b0082},
-    {"turquoise", 0x40e0d0}, {"azure", 0xf0ffff},  {"salmon", 0xfa8072},  {"brown", 0xa52a2a},  {"ivory", 0xfffff0},
-};
 
 constexpr float kDefaultScale = 4.0f;
 constexpr float kLeastScale = 0.1f;
@@ -58,24 +46,61 @@ private:
     Ramp ramp_;
 };
 
-class Noise final : public ColorField {
+/// By distance from the upright axis through the box's middle.
+class Radial final : public ColorField {
 public:
-    Noise(float scale, std::span<const glm::dvec3> stops) : scale_(scale), ramp_(stops) {}
+    explicit Radial(std::span<const glm::dvec3> stops) : ramp_(stops) {}
     void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override {
-        constexpr std::size_t kMost = 128;
-        std::array<glm::vec3, kMost> scaled;
-        std::array<float, kMost> values;
-        for (std::size_t first = 0; first < points.size(); first += kMost) {
-            const std::size_t count = std::min(kMost, points.size() - first);
-            for (std::size_t i = 0; i < count; ++i) scaled[i] = points[first + i] * scale_;
-            perlin_noise(std::span(scaled).first(count), std::span(values).first(count));
-            // Noise is mostly well within ±0.7: this spread uses the whole palette.
-            for (std::size_t i = 0; i < count; ++i) colors[first + i] = ramp_.at(0.5f + 0.8f * values[i]);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const float x = points[i].x - 0.5f;
+            const float y = points[i].y - 0.5f;
+            colors[i] = ramp_.at(2.0f * std::sqrt(x * x + y * y));
         }
     }
 
 private:
+    Ramp ramp_;
+};
+
+/// By distance from the box's centre.
+class Spherical final : public ColorField {
+public:
+    explicit Spherical(std::span<const glm::dvec3> stops) : ramp_(stops) {}
+    void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const float x = points[i].x - 0.5f;
+            const float y = points[i].y - 0.5f;
+            const float z = points[i].z - 0.5f;
+            colors[i] = ramp_.at(2.0f * std::sqrt(x * x + y * y + z * z));
+        }
+    }
+
+private:
+    Ramp ramp_;
+};
+
+using NoiseFunction = void (*)(std::span<const glm::vec3> points, std::span<float> values);
+
+class Noise final : public ColorField {
+public:
+    /// The palette's middle is at 0; `spread` of it lies between -1 and 1, where most of the noise is.
+    Noise(NoiseFunction noise, float scale, float spread, std::span<const glm::dvec3> stops)
+        : noise_(noise), scale_(scale), spread_(spread), ramp_(stops) {}
+    void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override {
+        std::array<glm::vec3, 128> scaled;
+        std::array<float, 128> values;
+        for (std::size_t at = 0; at < points.size(); at += scaled.size()) {
+            const std::size_t count = std::min(scaled.size(), points.size() - at);
+            for (std::size_t i = 0; i < count; ++i) scaled[i] = points[at + i] * scale_;
+            noise_(std::span(scaled).first(count), std::span(values).first(count));
+            for (std::size_t i = 0; i < count; ++i) colors[at + i] = ramp_.at(0.5f + spread_ * values[i]);
+        }
+    }
+
+private:
+    NoiseFunction noise_;
     float scale_;
+    float spread_;
     Ramp ramp_;
 };
 
@@ -90,25 +115,8 @@ private:
     Expression expression_;
 };
 
-Expected<glm::dvec3> parse_one_color(std::string_view text) {
-    if (text.starts_with('#')) {
-        std::uint32_t rrggbb = 0;
-        const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), rrggbb, 16);
-        if (text.size() != 7 || error != std::errc() || end != text.data() + text.size()) {
-            return fail(
-                fmt::format("colour \"{}\": a # must be followed by six hexadecimal digits, as in #ff8000", text));
-        }
-        return linear_from_hex(rrggbb);
-    }
-    const auto* known = std::ranges::find(kNames, text, &Name::name);
-    if (known != std::end(kNames)) return linear_from_hex(known->rrggbb);
-    std::string names;
-    for (const Name& name : kNames) names += fmt::format(", {}", name.name);
-    return fail(fmt::format("unknown colour \"{}\"; allowed: #rrggbb{}", text, names));
-}
-
 Expected<std::unique_ptr<ColorField>> make_constant(std::string_view color) {
-    const auto linear = parse_one_color(color);
+    const auto linear = parse_color_name(color);
     if (!linear) return tl::unexpected<Error>(linear.error());
     return std::make_unique<Constant>(*linear);
 }
@@ -121,33 +129,30 @@ std::unique_ptr<ColorField> make_default_gradient() {
     return std::make_unique<Gradient>(stops);
 }
 
-Expected<std::unique_ptr<ColorField>> make_gradient(std::string_view colors) {
-    const std::size_t comma = colors.find(',');
-    if (comma == std::string_view::npos) {
-        return fail(fmt::format(
-            "gradient:{}: two colours with a comma between them are needed, as in gradient:blue,gold", colors));
-    }
-    const auto bottom = parse_one_color(colors.substr(0, comma));
-    if (!bottom) return tl::unexpected<Error>(bottom.error());
-    const auto top = parse_one_color(colors.substr(comma + 1));
-    if (!top) return tl::unexpected<Error>(top.error());
-    return std::make_unique<Gradient>(std::array{*bottom, *top});
+/// A field of a ramp through the colours that are listed.
+template <class Field>
+Expected<std::unique_ptr<ColorField>> parse_ramp(std::string_view colors, std::string_view spec) {
+    const auto stops = parse_colors(colors, 2, spec);
+    if (!stops) return tl::unexpected<Error>(stops.error());
+    return std::make_unique<Field>(*stops);
 }
 
-std::unique_ptr<ColorField> make_noise(float scale) {
+std::unique_ptr<ColorField> make_noise(std::string_view kind, float scale) {
     const std::array stops = {linear_from_hex(0x2848ff), linear_from_hex(0x00c8ff), linear_from_hex(0x38f068),
                               linear_from_hex(0xffd800), linear_from_hex(0xff3050)};
-    return std::make_unique<Noise>(scale, stops);
+    // Perlin's noise is mostly well within ±0.7, simplex noise spreads wider: each uses the whole palette.
+    if (kind == "simplex") return std::make_unique<Noise>(NoiseFunction(simplex_noise), scale, 0.55f, stops);
+    return std::make_unique<Noise>(NoiseFunction(perlin_noise), scale, 0.8f, stops);
 }
 
-Expected<std::unique_ptr<ColorField>> parse_noise(std::string_view text) {
+Expected<std::unique_ptr<ColorField>> parse_noise(std::string_view kind, std::string_view text) {
     float scale = 0.0f;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), scale);
     if (error != std::errc() || end != text.data() + text.size() || !(scale >= kLeastScale && scale <= kMostScale)) {
-        return fail(fmt::format("noise:{}: the scale must be a number from {} to {}, as in noise:{}", text, kLeastScale,
-                                kMostScale, kDefaultScale));
+        return fail(fmt::format("{0}:{1}: the scale must be a number from {2} to {3}, as in {0}:{4}", kind, text,
+                                kLeastScale, kMostScale, kDefaultScale));
     }
-    return make_noise(scale);
+    return make_noise(kind, scale);
 }
 
 Expected<std::unique_ptr<ColorField>> parse_expression(std::string_view text) {
@@ -163,18 +168,17 @@ Expected<std::unique_ptr<ColorField>> parse_color(std::string_view spec) {
     const std::string_view kind = spec.substr(0, colon);
     if (colon == std::string_view::npos) {
         if (kind == "gradient") return make_default_gradient();
-        if (kind == "noise") return make_noise(kDefaultScale);
+        if (kind == "noise" || kind == "simplex") return make_noise(kind, kDefaultScale);
     } else {
         const std::string_view arguments = spec.substr(colon + 1);
         if (kind == "constant") return make_constant(arguments);
-        if (kind == "gradient") return make_gradient(arguments);
-        if (kind == "noise") return parse_noise(arguments);
+        if (kind == "gradient") return parse_ramp<Gradient>(arguments, spec);
+        if (kind == "radial") return parse_ramp<Radial>(arguments, spec);
+        if (kind == "spherical") return parse_ramp<Spherical>(arguments, spec);
+        if (kind == "noise" || kind == "simplex") return parse_noise(kind, arguments);
         if (kind == "expr") return parse_expression(arguments);
     }
-    return fail(
-        fmt::format("colour \"{}\" is not understood; allowed: constant:NAME, constant:#rrggbb, gradient,"
-                    " gradient:COLOR,COLOR, noise, noise:SCALE, expr:EXPRESSION",
-                    spec));
+    return fail(fmt::format("colour \"{}\" is not understood; allowed: {}", spec, kColorKinds));
 }
 
 }  // namespace xorvox::host

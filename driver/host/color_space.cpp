@@ -1,6 +1,9 @@
 #include "driver/host/color_space.h"
 
 #include <algorithm>
+#include <numbers>
+
+#include "voxelizer/elementary.h"
 
 namespace xorvox::host {
 namespace {
@@ -44,6 +47,10 @@ glm::dvec3 linear_from_oklab(const glm::dvec3& c) {
             -0.0041960863 * lll - 0.7034186147 * mmm + 1.7076147010 * sss};
 }
 
+glm::dvec3 clip(const glm::dvec3& c) {
+    return {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
+}
+
 }  // namespace
 
 double linear_from_srgb(std::uint8_t code) {
@@ -54,6 +61,17 @@ double linear_from_srgb(std::uint8_t code) {
     return square * root(square, 5);  // base^2.4
 }
 
+const std::array<float, 256>& srgb_light() {
+    static const std::array<float, 256> kLight = [] {
+        std::array<float, 256> light{};
+        for (std::size_t code = 0; code < light.size(); ++code) {
+            light[code] = static_cast<float>(linear_from_srgb(static_cast<std::uint8_t>(code)));
+        }
+        return light;
+    }();
+    return kLight;
+}
+
 glm::dvec3 linear_from_hex(std::uint32_t rrggbb) {
     return {linear_from_srgb(static_cast<std::uint8_t>(rrggbb >> 16)),
             linear_from_srgb(static_cast<std::uint8_t>(rrggbb >> 8)),
@@ -62,21 +80,29 @@ glm::dvec3 linear_from_hex(std::uint32_t rrggbb) {
 
 glm::dvec3 mix_oklab(const glm::dvec3& a, const glm::dvec3& b, double t) {
     const glm::dvec3 mixed = linear_from_oklab((1.0 - t) * oklab_from_linear(a) + t * oklab_from_linear(b));
-    return {std::clamp(mixed.r, 0.0, 1.0), std::clamp(mixed.g, 0.0, 1.0), std::clamp(mixed.b, 0.0, 1.0)};
+    return clip(mixed);
+}
+
+glm::dvec3 linear_from_oklch(double lightness, double chroma, double turns) {
+    const double angle = 2.0 * std::numbers::pi * turns;
+    return clip(linear_from_oklab({lightness, chroma * elementary::cos(angle), chroma * elementary::sin(angle)}));
 }
 
 Ramp::Ramp(std::span<const glm::dvec3> stops) {
-    const double pieces = static_cast<double>(stops.size() - 1);
-    for (std::size_t i = 0; i <= kSteps; ++i) {
-        const double place = pieces * static_cast<double>(i) / kSteps;
-        const std::size_t stop = std::min(static_cast<std::size_t>(place), stops.size() - 2);
-        table_[i] = mix_oklab(stops[stop], stops[stop + 1], place - static_cast<double>(stop));
+    constexpr std::size_t kLeastSteps = 64;
+    const std::size_t pieces = stops.size() - 1;
+    steps_ = pieces * ((kLeastSteps + pieces - 1) / pieces);
+    for (std::size_t i = 0; i <= steps_; ++i) {
+        const double place = static_cast<double>(pieces) * static_cast<double>(i) / static_cast<double>(steps_);
+        const std::size_t stop = std::min(static_cast<std::size_t>(place), pieces - 1);
+        table_.emplace_back(mix_oklab(stops[stop], stops[stop + 1], place - static_cast<double>(stop)));
     }
 }
 
 glm::vec3 Ramp::at(float t) const {
-    const float place = std::clamp(t, 0.0f, 1.0f) * static_cast<float>(kSteps);
-    const std::size_t step = std::min(static_cast<std::size_t>(place), kSteps - 1);
+    const float clamped = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
+    const float place = clamped * static_cast<float>(steps_);
+    const std::size_t step = std::min(static_cast<std::size_t>(place), steps_ - 1);
     const float rest = place - static_cast<float>(step);
     return table_[step] * (1.0f - rest) + table_[step + 1] * rest;
 }

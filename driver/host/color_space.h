@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -14,6 +15,9 @@ namespace xorvox::host {
 /// Linear light, 0 … 1, of an sRGB code (IEC 61966-2-1).
 double linear_from_srgb(std::uint8_t code);
 
+/// linear_from_srgb() of every code.
+const std::array<float, 256>& srgb_light();
+
 /// Linear light of 0xrrggbb in sRGB.
 glm::dvec3 linear_from_hex(std::uint32_t rrggbb);
 
@@ -21,18 +25,22 @@ glm::dvec3 linear_from_hex(std::uint32_t rrggbb);
 /// to 0 … 1.
 glm::dvec3 mix_oklab(const glm::dvec3& a, const glm::dvec3& b, double t);
 
+/// Linear light, clipped to 0 … 1, of a lightness, a chroma and a hue in turns (from red by yellow, green and blue) in
+/// Oklab.
+glm::dvec3 linear_from_oklch(double lightness, double chroma, double turns);
+
 /// A smooth row of colours, looked up many times.
 class Ramp {
 public:
-    /// At least two linear colours, evenly spaced.
+    /// Two or more linear colours, evenly spaced; at each of their places the ramp has the very colour.
     explicit Ramp(std::span<const glm::dvec3> stops);
 
     /// The colour at t, which is clamped to 0 … 1.
     glm::vec3 at(float t) const;
 
 private:
-    static constexpr std::size_t kSteps = 64;
-    std::array<glm::vec3, kSteps + 1> table_;
+    std::size_t steps_;
+    std::vector<glm::vec3> table_;
 };
 
 }  // namespace xorvox::host

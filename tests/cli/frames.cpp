@@ -11,14 +11,6 @@ namespace {
 
 const std::string kDuck = std::string(XORVOX_SOURCE_DIR) + "/examples/duck.ply";
 
-/// The number behind "key": in a JSON text.
-double number(const std::string& json, const std::string& key) {
-    const std::size_t at = json.find("\"" + key + "\": ");
-    CAPTURE(json, key);
-    REQUIRE(at != json.npos);
-    return std::stod(json.substr(at + key.size() + 4));
-}
-
 /// A rotor that is small enough to be simulated in an instant.
 const std::string kRotor = R"(
 name = "small-rotor"

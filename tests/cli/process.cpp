@@ -92,6 +92,13 @@ Outcome succeeds(const std::vector<std::string>& arguments) {
     return outcome;
 }
 
+double number(const std::string& json, const std::string& key) {
+    const std::size_t at = json.find("\"" + key + "\": ");
+    CAPTURE(json, key);
+    REQUIRE(at != json.npos);
+    return std::stod(json.substr(at + key.size() + 4));
+}
+
 Background::Background(const std::vector<std::string>& arguments) {
     const Spawned spawned = spawn(arguments, false);
     pid_ = spawned.pid;

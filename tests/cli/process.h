@@ -22,6 +22,9 @@ struct Outcome {
 /// no limit.
 Outcome run_program(const std::vector<std::string>& arguments, std::uint64_t memory_limit_bytes = 0);
 
+/// The number behind "key": in a JSON text; the test fails if there is none.
+double number(const std::string& json, const std::string& key);
+
 /// run_program(); the test fails unless it ends with status 0 and nothing on standard error.
 Outcome succeeds(const std::vector<std::string>& arguments);
 

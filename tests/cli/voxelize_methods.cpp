@@ -50,13 +50,6 @@ std::string refusal(const Arguments& options) {
     return outcome.err;
 }
 
-/// The number after "name": in a line of JSON.
-long number(const std::string& json, const std::string& name) {
-    const std::size_t at = json.find("\"" + name + "\": ");
-    REQUIRE(at != std::string::npos);
-    return std::stol(json.substr(at + name.size() + 4));
-}
-
 /// The kernels of this program and machine, which the refusal of a wrong one lists.
 Arguments kernels() {
     const std::string listed = refusal({"--kernel", "none"});

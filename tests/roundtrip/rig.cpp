@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 
 #include "driver/display/lattice.h"
-#include "driver/host/pixel.h"
+#include "driver/host/pixel_encoder.h"
 #include "driver/host/slices.h"
 #include "transport/loopback.h"
 #include "transport/tcp.h"
@@ -69,6 +69,7 @@ void Plain::evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> col
 
 Picture paint(const DisplayDescription& display, const Mesh& mesh, const host::ColorField& field) {
     const host::FramePainter painter(display);
+    const host::PixelEncoder encoder(display);
     const Lattice lattice = painter.lattice().view();
     const DisplayExtent room = extent(display);
     Picture picture;
@@ -93,7 +94,7 @@ Picture paint(const DisplayDescription& display, const Mesh& mesh, const host::C
                     glm::vec3 color;
                     field.evaluate({&asked, 1}, {&color, 1});
                     const std::uint64_t sample = (std::uint64_t{k} * lattice.ny + y) * lattice.nx + x;
-                    picture.codes.push_back({sample, host::visible_code(color, display.format)});
+                    picture.codes.push_back({sample, encoder.nearest(color)});
                 }
             }
         }

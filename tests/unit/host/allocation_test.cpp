@@ -14,10 +14,13 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "driver/display/toml.h"
+#include "driver/host/calibration.h"
 #include "driver/host/framebuffer.h"
+#include "driver/host/power_budget.h"
 #include "driver/host/slices.h"
 
 namespace {
@@ -38,20 +41,34 @@ void operator delete(void* memory, std::size_t) noexcept {
 
 using namespace xorvox;
 
-TEST_CASE("painting a frame allocates nothing") {
+TEST_CASE("painting a frame allocates nothing, in any mode") {
     for (const char* name : {"cube16-ws2812", "vortex"}) {
         const auto display = load_display(name).value();
-        const host::FramePainter painter(display);
-        BitVolume volume(painter.lattice().view());
-        for (std::uint32_t i = 0; i < 16; ++i) volume.view().flip(i, i, i);
-        std::vector<std::byte> frame(frame_bytes(display));
-        for (const char* color : {"constant:red", "gradient", "noise", "expr: hsv(noise(8*p), 1, z)"}) {
-            const auto field = host::parse_color(color).value();
-            const std::size_t before = allocations;
-            const Status status = painter.paint(volume.view(), *field, frame);
-            const std::size_t after = allocations;
-            CHECK(status == Status::Ok);
-            CHECK(after == before);
+        const bool planes = display.kind == DisplayKind::StackedPlanes;
+        const auto calibration = host::Calibration::parse(
+            std::string(planes ? "plane" : "panel") + ",row,column,red,green,blue\n0,3,3,0.5,0.5,0.5\n", display);
+        REQUIRE(calibration);
+        for (const auto mode : {host::LightMode::Bright, host::LightMode::Uniform, host::LightMode::Even}) {
+            for (const auto dither : {host::Dither::None, host::Dither::Ordered, host::Dither::Temporal}) {
+                for (const host::Calibration* const measured :
+                     {static_cast<const host::Calibration*>(nullptr), &*calibration}) {
+                    host::FramePainter painter(display, {.mode = mode, .dither = dither, .calibration = measured});
+                    host::PowerBudget budget(display);
+                    BitVolume volume(painter.lattice().view());
+                    for (std::uint32_t i = 0; i < 16; ++i) volume.view().flip(i, i, i);
+                    std::vector<std::byte> frame(frame_bytes(display));
+                    for (const char* color : {"constant:red", "gradient", "noise", "expr: hsv(noise(8*p), 1, z)"}) {
+                        const auto field = host::parse_color(color).value();
+                        const std::size_t before = allocations;
+                        painter.set_brightness(0.7f * budget.factor());
+                        const Status status = painter.paint(volume.view(), *field, frame, 5);
+                        (void)budget.allows(frame);
+                        const std::size_t after = allocations;
+                        CHECK(status == Status::Ok);
+                        CHECK(after == before);
+                    }
+                }
+            }
         }
     }
     CHECK(allocations > 0);

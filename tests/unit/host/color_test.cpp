@@ -77,6 +77,10 @@ TEST_CASE("colours have the same bits on every machine") {
         {"noise", 0.8f, {0x1.e5961cp-1f, 0x1.65142ap-1f, 0x1.93d59ap-8f}},
         {"noise:10.5", 0.5f, {0x1p+0f, 0x1.832964p-2f, 0x1.5b5c56p-5f}},
         {"noise:10.5", 1.0f, {0x1.bdd126p-8f, 0x1.7cdfe8p-3f, 0x1p+0f}},
+        {"gradient:red,#00ff00,blue,white", 0.4f, {0x0p+0f, 0x1.7771e8p-1f, 0x1.b8db5p-3f}},
+        {"simplex", 0.8f, {0x1.549f18p-4f, 0x1.ba51fp-1f, 0x1.0ba116p-3f}},
+        {"radial:red,gold,blue", 0.1f, {0x1.66f418p-1f, 0x1.29f5dp-1f, 0x1.23375p-3f}},
+        {"spherical:red,gold,blue", 0.1f, {0x0p+0f, 0x1.8110acp-6f, 0x1.ec33e4p-1f}},
     };
     for (const auto& [spec, z, color] : golden) {
         INFO(spec << " at " << z);
@@ -85,7 +89,7 @@ TEST_CASE("colours have the same bits on every machine") {
 }
 
 TEST_CASE("gradient and noise are bright everywhere, within 0 to 1, and vary") {
-    for (const char* spec : {"gradient", "noise", "noise:0.1", "noise:256"}) {
+    for (const char* spec : {"gradient", "noise", "noise:0.1", "noise:256", "simplex", "simplex:0.1", "simplex:256"}) {
         INFO(spec);
         const auto field = parse_color(spec).value();
         std::vector<glm::vec3> points;
@@ -130,6 +134,30 @@ TEST_CASE("the default gradient keeps its order in few bits: blue only falls, re
     }
 }
 
+TEST_CASE("each colour of a list has its own place") {
+    CHECK(color_at("gradient:red,lime,blue,white", {0, 0, 1.0f / 3.0f}).g == Approx(1.0f));
+    CHECK(color_at("gradient:red,lime,blue,white", {0, 0, 2.0f / 3.0f}).r == Approx(0.0f).margin(1e-5));
+    CHECK(color_at("gradient:red,lime,blue,white", {0, 0, 1}).r == Approx(1.0f));
+}
+
+TEST_CASE("radial and spherical maps begin in the middle and end at half the box's side") {
+    for (const glm::vec3 axis : {glm::vec3(0.5f, 0.5f, 0.0f), {0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 1.0f}}) {
+        CHECK(color_at("radial:red,blue", axis).r == Approx(1.0f));
+    }
+    for (const glm::vec3 rim :
+         {glm::vec3(1.0f, 0.5f, 0.5f), {0.5f, 0.0f, 0.1f}, {0.8f, 0.9f, 0.5f}, {0, 0, 0}, {9, 9, 9}}) {
+        CHECK(color_at("radial:red,blue", rim).b == Approx(1.0f));
+        CHECK(color_at("radial:red,blue", rim).r == Approx(0.0f).margin(1e-5));
+    }
+    CHECK(color_at("spherical:red,blue", {0.5f, 0.5f, 0.5f}).r == Approx(1.0f));
+    CHECK(color_at("spherical:red,blue", {0.5f, 0.5f, 1.0f}).b == Approx(1.0f));
+    CHECK(color_at("spherical:red,blue", {-9, 0, 0}).b == Approx(1.0f));
+    // Half way, as a gradient is half way up.
+    const glm::vec3 half = color_at("gradient:red,blue", {0, 0, 0.5f});
+    CHECK(color_at("radial:red,blue", {0.75f, 0.5f, 0.9f}) == half);
+    CHECK(color_at("spherical:red,blue", {0.5f, 0.5f, 0.25f}) == half);
+}
+
 TEST_CASE("points outside the box get the nearest colour") {
     CHECK(color_at("gradient", {0, 0, -5}) == color_at("gradient", {0, 0, 0}));
     CHECK(color_at("gradient", {0, 0, 5}) == color_at("gradient", {0, 0, 1}));
@@ -149,18 +177,24 @@ TEST_CASE("a colour that is not understood is refused with what is allowed") {
     for (const char* spec : {"", "rainbow", "constant", "red", "gradients", "gradient ", "Noise", ":", "expr"}) {
         CHECK_THAT(message(spec), Contains(std::string("colour \"") + spec + "\"") &&
                                       Contains("constant:#rrggbb, gradient,") &&
-                                      Contains("noise:SCALE, expr:EXPRESSION"));
+                                      Contains("simplex:SCALE, expr:EXPRESSION"));
     }
     CHECK_THAT(message("constant:redd"), Contains("unknown colour \"redd\"") && Contains("#rrggbb, black, silver"));
     CHECK_THAT(message("constant:"), Contains("unknown colour \"\""));
     for (const char* hex : {"#12345", "#1234567", "#12345g", "#-12345", "#", "# 12345", "#0x1234"}) {
         CHECK_THAT(message(std::string("constant:") + hex), Contains("six hexadecimal digits"));
     }
-    CHECK_THAT(message("gradient:red"), Contains("two colours with a comma"));
+    for (const char* kind : {"gradient", "radial", "spherical"}) {
+        CHECK_THAT(message(std::string(kind) + ":red"), Contains(kind) && Contains("two colours or more with commas"));
+        CHECK_THAT(message(std::string(kind) + ":red,"), Contains("unknown colour \"\""));
+    }
     CHECK_THAT(message("gradient:red,bleu"), Contains("unknown colour \"bleu\""));
     CHECK_THAT(message("gradient:rde,blue"), Contains("unknown colour \"rde\""));
-    CHECK_THAT(message("gradient:red,blue,gold"), Contains("unknown colour \"blue,gold\""));
+    std::string many = "gradient:red";
+    for (int i = 0; i < 64; ++i) many += ",red";
+    CHECK_THAT(message(many), Contains("at most 64 colours"));
     for (const char* scale : {"", "x", "4x", "0", "-1", "nan", "inf", "1e9", "0.01"}) {
         CHECK_THAT(message(std::string("noise:") + scale), Contains("a number from 0.1 to 256"));
+        CHECK_THAT(message(std::string("simplex:") + scale), Contains("a number from 0.1 to 256, as in simplex:4"));
     }
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "tests/catch.h"
 #include "voxelizer/elementary.h"
@@ -68,6 +69,25 @@ TEST_CASE("sin and cos are right to fifteen decimals within their range") {
     for (const double x : {0x1.00001p20, -1e300, kInfinity, elementary::kNan}) {
         CHECK(std::isnan(elementary::sin(x)));
         CHECK(std::isnan(elementary::cos(x)));
+    }
+}
+
+TEST_CASE("atan2 is the angle to fifteen decimals, all around") {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> exponent(-30.0, 30.0);
+    std::uniform_real_distribution<double> near(-1.0, 1.0);
+    double worst = 0.0;
+    for (int i = 0; i < kCount; ++i) {
+        const double x = i % 2 == 0 ? near(random) : std::exp(exponent(random)) * (near(random) < 0.0 ? -1.0 : 1.0);
+        const double y = i % 2 == 0 ? near(random) : std::exp(exponent(random)) * (near(random) < 0.0 ? -1.0 : 1.0);
+        worst = std::max(worst, std::abs(elementary::atan2(y, x) - std::atan2(y, x)));
+    }
+    CHECK(worst < 1e-15);
+    CHECK(elementary::atan2(0.0, 0.0) == 0.0);
+    CHECK(elementary::atan2(0.0, 2.0) == 0.0);
+    for (const auto& [y, x] :
+         {std::pair{0.0, -1.0}, {1.0, 0.0}, {-1.0, 0.0}, {1.0, 1.0}, {-3.0, 3.0}, {1e-300, -1e300}}) {
+        CHECK(elementary::atan2(y, x) == std::atan2(y, x));
     }
 }
 

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "tests/catch.h"
 #include "voxelizer/noise.h"
@@ -67,6 +69,28 @@ TEST_CASE("noise has the same bits on every machine") {
     CHECK(perlin_noise({0.5f, 0.5f, 0.5f}) == 0x1.8p-2f);
     CHECK(perlin_noise({1.25f, -3.5f, 7.75f}) == -0x1.1a1d6p-1f);
     CHECK(perlin_noise({100.1f, 200.2f, -300.3f}) == 0x1.e382d8p-3f);
+}
+
+TEST_CASE("noise at many points is the noise at each of them") {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<float> place(-300.0f, 300.0f);
+    std::vector<glm::vec3> points;
+    for (const float step : {0.001f, 0.03f, 0.3f, 5.0f}) {
+        for (int row = 0; row < 50; ++row) {
+            const glm::vec3 first(place(random), place(random), place(random));
+            for (int i = 0; i < 37; ++i)
+                points.push_back(first + static_cast<float>(i) * step * glm::vec3(1, -0.2f, 0.1f));
+        }
+    }
+    for (const glm::vec3 odd :
+         {glm::vec3(NAN), glm::vec3(1, INFINITY, 0), glm::vec3(5e6f), glm::vec3(-0x1p22f), glm::vec3(0x1p22f)}) {
+        points.insert(points.end(), 19, odd);
+    }
+    std::vector<float> values(points.size());
+    for (std::size_t first = 0; first < 9; ++first) {
+        perlin_noise(std::span(points).subspan(first), std::span(values).subspan(first));
+        for (std::size_t i = first; i < points.size(); ++i) REQUIRE(values[i] == perlin_noise(points[i]));
+    }
 }
 
 TEST_CASE("simplex noise is continuous within and across its tetrahedra") {

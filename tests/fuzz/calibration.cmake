@@ -1,0 +1,1 @@
+xorvox_fuzzer(calibration SOURCES calibration.cpp LINK xorvox::host)

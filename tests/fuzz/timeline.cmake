@@ -1,0 +1,1 @@
+xorvox_fuzzer(timeline SOURCES timeline.cpp LINK xorvox::host)

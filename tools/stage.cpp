@@ -1,0 +1,106 @@
+#include "tools/stage.h"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tools/color_choice.h"
+#include "tools/console.h"
+#include "tools/mesh_content.h"
+#include "tools/mesh_input.h"
+
+namespace xorvox::tools {
+namespace {
+
+Expected<std::unique_ptr<Content>> read_content(const StageOptions& options, const DisplayDescription& display,
+                                                Turning turning) {
+    std::vector<NamedMesh> meshes;
+    MeshOptions mesh = options.mesh;
+    for (std::size_t i = 0; i <= options.following.size(); ++i) {
+        if (i > 0) mesh.path = options.following[i - 1];
+        Expected<MeshInput> input = read_solid(mesh);
+        if (!input) return tl::unexpected(input.error());
+        meshes.push_back({std::move(input->mesh), mesh.path});
+    }
+    auto content = MeshContent::make(std::move(meshes), display, turning, 1.0 / options.files_per_second, 1);
+    if (!content) return tl::unexpected(content.error());
+    return std::make_unique<MeshContent>(std::move(*content));
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning turning) {
+    auto stage = std::make_unique<Stage>();
+    const DeliveryOptions& to = options.delivery;
+    Expected<transport::Address> address = transport::parse_address(to.to);
+    if (!address) return fail("--to: " + address.error().message);
+    stage->address = std::move(*address);
+    if (const auto possible = check_delivery(to, stage->address, options.mesh.path); !possible) {
+        return tl::unexpected(possible.error());
+    }
+    Expected<DisplayFile> display = load_display(options.display);
+    if (!display) return tl::unexpected(display.error());
+    stage->display = std::move(*display);
+    const Expected<ChosenLight> light = choose_light(options.light, stage->display);
+    if (!light) return tl::unexpected(light.error());
+    auto color = choose_color(options.color);
+    if (!color) return fail("--color: " + color.error().message);
+    stage->color = std::move(*color);
+    if (const auto fits = check_display_fits(stage->display); !fits) return tl::unexpected(fits.error());
+    if (!to.png.empty()) {
+        Expected<io::AtomicFile> file = io::AtomicFile::create(to.png);
+        if (!file) return tl::unexpected(file.error());
+        stage->png = std::move(*file);
+    }
+    auto content = read_content(options, stage->display, turning);
+    if (!content) return tl::unexpected(content.error());
+    stage->content = std::move(*content);
+    auto maker = FrameMaker::make(stage->display, *stage->content, stage->color.get(),
+                                  {.light = light->settings, .resampled = options.sampling == "cartesian"});
+    if (!maker) return tl::unexpected(maker.error());
+    stage->maker = std::move(*maker);
+    return stage;
+}
+
+void print_light(const StageOptions& options, const Stage& stage, const std::optional<LightSeen>& light) {
+    if (stage.maker->dimmed_to() != 1.0f) {
+        fmt::print("light: dimmed to {:.0f} %, so that it draws no more than the {:g} mA of the display's supply\n",
+                   100.0f * stage.maker->dimmed_to(), stage.display.power.limit_ma);
+    }
+    if (!light) return;
+    const sim::Statistics& seen = light->statistics;
+    fmt::print("lit: {} pixels at {} places, {} outside the display\n", thousands(seen.pixels_lit),
+               thousands(seen.voxels_lit), thousands(seen.light_outside));
+    // In uniform light most samples near an axis are left out, and those that are lit stand for more than their own
+    // space.
+    if (seen.voxels_lit > 0 && options.light.mode == "bright") {
+        fmt::print("brightness: the densest light is {:.3g} times the thinnest\n", seen.brightness_ratio);
+    }
+    if (options.light.mode == "uniform") {
+        fmt::print("brightness: even; of the samples inside, each voxel has one lit for each panel that passes it\n");
+    }
+    if (options.light.mode == "even") {
+        fmt::print("brightness: even; each sample is as bright as the space it stands for is large\n");
+    }
+    if (!options.delivery.png.empty()) {
+        fmt::print("picture: {}, {:.0f} % of it is the object\n", options.delivery.png, 100.0 * light->picture_covered);
+    }
+}
+
+std::string stage_json(const StageOptions& options, const Stage& stage, std::size_t inside) {
+    return fmt::format(
+        "\"mesh\": {}, \"display\": {}, \"to\": {}, \"samples\": {}, \"inside\": {}, \"light_settings\": {}, "
+        "\"dimmed_to\": {:.4f}",
+        json_string(options.mesh.path), json_string(stage.display.name.view()), json_string(options.delivery.to),
+        frame_pixels(stage.display), inside, light_settings_json(options.light), stage.maker->dimmed_to());
+}
+
+std::string light_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
+    std::string object = light ? sim::to_json(light->statistics) : "null";
+    while (object.ends_with('\n')) object.pop_back();
+    return fmt::format("\"picture\": {}, \"light\": {}", options.png.empty() ? "null" : json_string(options.png),
+                       object);
+}
+
+}  // namespace xorvox::tools

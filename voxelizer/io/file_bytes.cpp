@@ -1,0 +1,69 @@
+#include "voxelizer/io/file_bytes.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace xorvox::io {
+namespace {
+
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number() const { return number_; }
+
+private:
+    int number_;
+};
+
+std::string last_error() {
+    return std::system_category().message(errno);
+}
+
+}  // namespace
+
+Expected<std::string> read_file_bytes(const std::string& path, const std::string& name, std::uint64_t most,
+                                      const std::string& what) {
+    const auto too_long = [&] {
+        return fail(fmt::format("{}: longer than {} bytes, the most that is read of {}", name, most, what));
+    };
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    struct stat info {};
+    if (file.number() < 0 || ::fstat(file.number(), &info) != 0) {
+        return fail(fmt::format("{}: cannot be read: {}; check the name and the permissions", name, last_error()));
+    }
+    if (S_ISDIR(info.st_mode)) return fail(fmt::format("{}: is a directory; name {} in it", name, what));
+    if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode)) {
+        return fail(fmt::format("{}: is neither a file nor a pipe; name {}", name, what));
+    }
+    const auto announced = static_cast<std::uint64_t>(info.st_size);
+    if (announced > most) return too_long();
+
+    // One byte more than announced, so that the end of a regular file is seen without growing.
+    constexpr std::size_t kPipeBytes = std::size_t{1} << 16;
+    std::string bytes(S_ISREG(info.st_mode) ? announced + 1 : kPipeBytes, '\0');
+    std::size_t size = 0;
+    for (;;) {
+        const ssize_t got = ::read(file.number(), bytes.data() + size, bytes.size() - size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return fail(fmt::format("{}: byte {}: cannot be read: {}", name, size, last_error()));
+        if (got == 0) break;
+        size += static_cast<std::size_t>(got);
+        if (size > most) return too_long();
+        if (size == bytes.size()) bytes.resize(2 * size);
+    }
+    if (size == 0) return fail(fmt::format("{}: byte 0: the file is empty; write it again", name));
+    bytes.resize(size);
+    return bytes;
+}
+
+}  // namespace xorvox::io

@@ -1,0 +1,69 @@
+#include "voxelizer/io/volume_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "voxelizer/io/file_bytes.h"
+#include "voxelizer/io/file_name.h"
+#include "voxelizer/io/text_scanner.h"
+
+namespace xorvox::io {
+namespace {
+
+constexpr std::array<std::string_view, 6> kExtensions{".binvox", ".nrrd", ".nhdr", ".vox", ".png", ".nii"};
+
+// The extension that says what the file is: that of "scan.nii.gz" is ".nii".
+std::string volume_extension(const std::string& path) {
+    const std::string extension = extension_of(path);
+    if (extension != ".gz") return extension;
+    const std::string inner = extension_of(std::string_view(path).substr(0, path.size() - extension.size()));
+    return inner == ".nii" ? inner : extension;
+}
+
+bool is_folder(const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored);
+}
+
+Expected<VolumeSequence> read(const std::string& path, const std::string& name) {
+    const std::string extension = volume_extension(path);
+    if (is_folder(path) || extension == ".png") return read_png_stack(path);
+    if (std::ranges::find(kExtensions, extension) == kExtensions.end()) {
+        return fail(
+            fmt::format("{}: its extension {} is of no known volume format; xorvox reads .binvox, .nrrd, "
+                        ".nhdr, .vox, .nii, .nii.gz and stacks of .png",
+                        name, io::quoted(extension)));
+    }
+    const auto bytes = read_file_bytes(path, name, kMaxVolumeFileBytes, "a volume file");
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (extension == ".binvox") return parse_binvox(*bytes, name);
+    if (extension == ".vox") return parse_vox(*bytes, name);
+    if (extension == ".nii") return parse_nifti(*bytes, name);
+    return parse_nrrd(*bytes, name, [&path](const std::string& file) {
+        const std::string beside = (std::filesystem::path(path).parent_path() / file).string();
+        return read_file_bytes(beside, printable_name(beside), kMaxVolumeFileBytes, "a data file");
+    });
+}
+
+}  // namespace
+
+bool is_volume_path(const std::string& path) {
+    return is_folder(path) || std::ranges::find(kExtensions, volume_extension(path)) != kExtensions.end();
+}
+
+Expected<VolumeSequence> read_volumes(const std::string& path) {
+    const std::string name = printable_name(path);
+    try {
+        return read(path, name);
+    } catch (const std::bad_alloc&) {
+        return fail(fmt::format("{}: not enough memory to read it; write fewer voxels", name));
+    }
+}
+
+}  // namespace xorvox::io
