@@ -23,21 +23,22 @@
 namespace xorvox::tools {
 namespace {
 
-/// What issue and documentation promise of a display that has the bits for it.
+/// A display whose brightest cell has at most so many times the light of its darkest one is called even.
 constexpr double kEven = 1.25;
 
 struct Measured {
     std::string name;
     std::size_t samples = 0;
     sim::Uniformity bright;
+    // Corrected: in the nearest levels, and dithered.
+    sim::Uniformity nearest;
     sim::Uniformity ordered;
     sim::Uniformity temporal;
     std::uint32_t bits = 0;      ///< A channel that are shown.
     double faintest = 0.0;       ///< The least light of a sample that is lit, of 1.
     double smallest_gain = 0.0;  ///< That evenness asks of a sample.
 
-    double best() const { return std::min(ordered.ratio(), temporal.ratio()); }
-    bool is_even() const { return best() <= kEven; }
+    bool is_even() const { return std::min(ordered.ratio(), temporal.ratio()) <= kEven; }
     /// The part of the light that the correction leaves.
     double kept() const { return temporal.mean / bright.mean; }
 };
@@ -129,10 +130,12 @@ Measured measure(const DisplayFile& display, std::uint32_t frames) {
     measured.name = display.name.view();
     measured.samples = frame_pixels(display);
     measured.bright = white.measure(meter, {}, 1, progress);
-    measured.ordered =
-        white.measure(meter, {.mode = host::LightMode::Even, .dither = host::Dither::Ordered}, 1, progress);
-    measured.temporal =
-        white.measure(meter, {.mode = host::LightMode::Even, .dither = host::Dither::Temporal}, frames, progress);
+    const auto corrected = [&](host::Dither dither, std::uint32_t count) {
+        return white.measure(meter, {.mode = host::LightMode::Even, .dither = dither}, count, progress);
+    };
+    measured.nearest = corrected(host::Dither::None, 1);
+    measured.ordered = corrected(host::Dither::Ordered, 1);
+    measured.temporal = corrected(host::Dither::Temporal, frames);
     measured.bits = shown_bit_planes(display);
     measured.faintest = faintest_light(display);
     measured.smallest_gain = smallest_gain(display);
@@ -147,8 +150,12 @@ std::string ratio_json(double ratio) {
     return std::isfinite(ratio) ? fmt::format("{:.6g}", ratio) : "null";
 }
 
-std::string reason(const Measured& measured) {
-    return fmt::format("{} bit{}: the faintest light is {:.3g}, and the smallest gain {:.3g}", measured.bits,
+/// Whether it is even, and why not.
+std::string verdict(const Measured& measured) {
+    if (measured.bright.ratio() <= kEven) return "even";
+    if (measured.nearest.ratio() <= kEven) return "even when corrected";
+    return fmt::format("{}: {} bit{} a channel, whose first level is {:.2g}; the smallest gain is {:.2g}",
+                       measured.is_even() ? "even when dithered" : "not even", measured.bits,
                        measured.bits == 1 ? "" : "s", measured.faintest, measured.smallest_gain);
 }
 
@@ -156,14 +163,16 @@ void print_text(const std::vector<Measured>& all, std::uint32_t frames) {
     std::size_t width = 7;
     for (const Measured& measured : all) width = std::max(width, measured.name.size());
     fmt::print(
-        "Brightest cell ÷ darkest cell, all white. bright: as it comes; even: corrected, dithered in space, and in"
-        " time over {} frames.\n\n{:<{}}  {:>5}  {:>7}  {:>12}  {:>13}  {:>10}\n",
-        frames, "display", width, "cells", "bright", "even, ordered", "even, temporal", "light kept");
+        "Light of the brightest cell ÷ that of the darkest, all white; even is at most {}.\n"
+        "bright: as it comes. even: corrected, in the nearest levels; ordered: dithered in space; temporal: and in"
+        " time, over {} frame{}.\n\n"
+        "{:<{}}  {:>5}  {:>7}  {:>7}  {:>7}  {:>8}  light left\n",
+        kEven, frames, frames == 1 ? "" : "s", "display", width, "cells", "bright", "even", "ordered", "temporal");
     for (const Measured& measured : all) {
-        fmt::print("{:<{}}  {:>5}  {:>7}  {:>13}  {:>14}  {:>8.1f} %  {}\n", measured.name, width,
-                   measured.bright.cells, ratio_text(measured.bright.ratio()), ratio_text(measured.ordered.ratio()),
-                   ratio_text(measured.temporal.ratio()), 100.0 * measured.kept(),
-                   measured.is_even() ? fmt::format("even: at most {}", kEven) : reason(measured));
+        fmt::print("{:<{}}  {:>5}  {:>7}  {:>7}  {:>7}  {:>8}  {:>8.1f} %  {}\n", measured.name, width,
+                   measured.bright.cells, ratio_text(measured.bright.ratio()), ratio_text(measured.nearest.ratio()),
+                   ratio_text(measured.ordered.ratio()), ratio_text(measured.temporal.ratio()), 100.0 * measured.kept(),
+                   verdict(measured));
     }
 }
 
@@ -178,12 +187,14 @@ void print_json(const std::vector<Measured>& all, std::uint32_t frames) {
     const char* separator = "[";
     for (const Measured& measured : all) {
         fmt::print(
-            "{}\n  {{\"display\": {}, \"samples\": {}, \"cells_a_side\": {}, \"cells\": {}, \"bright\": {},"
+            "{}\n  {{\"display\": {}, \"samples\": {}, \"cells_a_side\": {}, \"cells\": {}, \"bright\": {}, "
+            "\"nearest\": {},"
             " \"ordered\": {}, \"temporal\": {}, \"frames\": {}, \"bits\": {}, \"faintest_light\": {:.6g},"
             " \"smallest_gain\": {:.6g}, \"light_kept\": {:.6g}, \"even\": {}}}",
             separator, json_string(measured.name), measured.samples, measured.bright.cells_a_side,
-            measured.bright.cells, json_of(measured.bright), json_of(measured.ordered), json_of(measured.temporal),
-            frames, measured.bits, measured.faintest, measured.smallest_gain, measured.kept(), measured.is_even());
+            measured.bright.cells, json_of(measured.bright), json_of(measured.nearest), json_of(measured.ordered),
+            json_of(measured.temporal), frames, measured.bits, measured.faintest, measured.smallest_gain,
+            measured.kept(), measured.is_even());
         separator = ",";
     }
     fmt::print("\n]\n");

@@ -168,7 +168,7 @@ TEST_CASE("a plane that swings is brighter at its ends, where it dwells") {
     const sim::Uniformity steady =
         uniformity(swept_of(16, 16, 256, MotionProfile::Constant, PixelFormat::Rgb888), white);
     CHECK(steady.ratio() == Approx(1.0));
-    CHECK(steady.cells_a_side == 8);
+    CHECK(steady.cells_a_side == 10);
     const sim::Uniformity found = uniformity(swept_of(64, 64, 640, MotionProfile::Sine, PixelFormat::Mono1), white);
     REQUIRE(found.cells_a_side == 16);
     // The time of a sweep that the plane spends in the last and in a middle sixteenth of its stroke.
