@@ -194,8 +194,8 @@ Expected<SolidFile> voxelize_by_column(const VoxelizeOptions& options, const Mes
     Work work(progress, options.output);
     const Memory memory = allowed_memory(options);
     SolidFile file{.lattice = part_of(lattice, region)};
-    auto writer =
-        io::VolumeWriter::create(options.output, file.lattice, stop.token(), [&](double part) { work.written(part); });
+    auto writer = io::VolumeWriter::create(options.output, file.lattice, stop.token(),
+                                           [&](double part) { work.written(part); }, {.gzip = options.gzip});
     if (!writer) return tl::unexpected(writer.error());
     const io::SlabAxis axis = writer->slab_axis();
     const std::uint64_t slab_bytes = thin_slab_bytes(file.lattice, axis) + writing_bytes(file.lattice, axis);

@@ -20,6 +20,7 @@ namespace xorvox::tools {
 struct AllOptions {
     InfoOptions info;
     VoxelizeOptions voxelize;
+    ConvertOptions convert;
     ShowOptions show;
     PlayOptions play;
     SimOptions sim;
@@ -41,6 +42,7 @@ struct Command {
 
 /// Puts the commands into `program`; `options` is borrowed by them.
 std::vector<Command> mesh_commands(CLI::App& program, AllOptions& options);
+Command convert_command(CLI::App& program, ConvertOptions& options);
 std::vector<Command> display_commands(CLI::App& program, AllOptions& options);
 Command bench_command(CLI::App& program, AllOptions& options);
 
@@ -54,6 +56,9 @@ void add_strict(CLI::App& app, MeshOptions& mesh);
 
 /// How colours become light; for the commands that show models.
 void add_light(CLI::App& app, LightOptions& light);
+/// --threshold and --volume; add_transfer() the colours of values.
+void add_volume(CLI::App& app, VolumeOptions& volume);
+void add_transfer(CLI::App& app, VolumeOptions& volume);
 
 /// "64" into a number of things, at most `most`. A CLI::ValidationError says what is wrong; so below.
 std::uint32_t parse_count(const std::string& option, const std::string& text, std::uint32_t most);

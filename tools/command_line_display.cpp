@@ -65,11 +65,13 @@ void add_stage(CLI::App& app, StageOptions& options) {
     add_strict(app, options.mesh);
     add_display(app, options.display);
     app.add_option("--color", options.color,
-                   "Which colour each lit voxel has (default gradient): " + color_kinds() +
+                   "Which colour each lit voxel has (default: own if there are any, else gradient): " + color_kinds() +
                        ". COLOR is a name as in CSS or #rrggbb, and a wrong one lists them all; own is the model's own "
                        "colours. "
                        "docs/color.md shows each kind")
         ->type_name("KIND:ARGS");
+    add_volume(app, options.volume);
+    add_transfer(app, options.volume);
     add_light(app, options.light);
     app.add_option(
            "--sampling", options.sampling,

@@ -42,10 +42,12 @@ void add_vector(CLI::App& app, const std::string& name, std::optional<glm::dvec3
 }
 
 Command info_command(CLI::App& program, InfoOptions& options) {
-    CLI::App& app = *program.add_subcommand("info", "Say what a mesh is: size, holes, faults, volume");
+    CLI::App& app =
+        *program.add_subcommand("info", "Say what a mesh is: size, holes, faults, volume; or what a volume is");
     add_mesh(app, options.mesh);
+    add_volume(app, options.volume);
     app.add_flag("--json", options.json, "One JSON object on standard output");
-    examples(app, "  xorvox info bunny.ply\n  xorvox info part.stl --unit in --json");
+    examples(app, "  xorvox info bunny.ply\n  xorvox info part.stl --unit in --json\n  xorvox info scan.nii.gz");
     return {&app, [&options] { return info(options); }};
 }
 
@@ -113,7 +115,10 @@ Command voxelize_command(CLI::App& program, VoxelizeOptions& options) {
     CLI::App& app = *program.add_subcommand("voxelize", "Turn a closed mesh into a volume of bits, exactly");
     add_mesh(app, options.mesh);
     add_strict(app, options.mesh);
-    app.add_option("-o,--output", options.output, "The volume: .nrrd, .binvox or .bits")->required()->type_name("OUT");
+    app.add_option("-o,--output", options.output,
+                   "The volume: .nrrd, .binvox, .nii, .nii.gz, .vox, .bits, or a stack of .png")
+        ->required()
+        ->type_name("OUT");
     CLI::Option* size = app.add_option_function<std::string>(
                                "--size",
                                [&options](const std::string& text) {
@@ -127,6 +132,7 @@ Command voxelize_command(CLI::App& program, VoxelizeOptions& options) {
                "The outer corner of voxel 0,0,0, in the units of the mesh (mm with --unit)");
     add_vector(app, "--pitch", options.grid.pitch, true, "P[,PY,PZ]", "The size of a voxel");
     size->excludes("--grid")->excludes("--origin")->excludes("--pitch");
+    app.add_flag("--gzip", options.gzip, "Pack a .nrrd file");
     add_method(app, options);
     app.add_flag("--json", options.json, "One JSON object on standard output");
     examples(app,
@@ -140,7 +146,8 @@ Command voxelize_command(CLI::App& program, VoxelizeOptions& options) {
 }  // namespace
 
 std::vector<Command> mesh_commands(CLI::App& program, AllOptions& options) {
-    return {info_command(program, options.info), voxelize_command(program, options.voxelize)};
+    return {info_command(program, options.info), voxelize_command(program, options.voxelize),
+            convert_command(program, options.convert)};
 }
 
 }  // namespace xorvox::tools

@@ -32,8 +32,16 @@ struct GridOptions {
     std::optional<glm::dvec3> pitch;
 };
 
+/// How a volume file is taken; shared by show, play, info and convert.
+struct VolumeOptions {
+    std::optional<double> threshold;     ///< Of volumes of values; none: found by Otsu's method.
+    std::string transfer;                ///< VALUE:COLOR[:OPACITY],…; empty: from threshold to most value.
+    std::optional<std::uint32_t> frame;  ///< Only this one, from 0; none: all.
+};
+
 struct InfoOptions {
-    MeshOptions mesh;
+    MeshOptions mesh;  ///< Its path may be that of a volume.
+    VolumeOptions volume;
     bool json = false;
 };
 
@@ -42,6 +50,7 @@ struct VoxelizeOptions {
     GridOptions grid;
     std::string output;
     std::string method = "column";  ///< Or "simplicial" or "reference".
+    bool gzip = false;              ///< Of .nrrd.
     bool json = false;
 
     // Of the method "column":
@@ -53,6 +62,14 @@ struct VoxelizeOptions {
     // Of the method "simplicial":
     SimplicialOptions simplicial;
     bool signed_sum = false;  ///< Look for faults of orientation.
+};
+
+struct ConvertOptions {
+    std::string input;
+    std::string output;
+    VolumeOptions volume;  ///< Without transfer.
+    bool gzip = false;     ///< Of .nrrd.
+    bool json = false;
 };
 
 /// Pixels of a picture.
@@ -78,8 +95,9 @@ struct StageOptions {
     MeshOptions mesh;
     std::vector<std::string> following;  ///< More files of the same kind, shown one after the other.
     double files_per_second = 10.0;
+    VolumeOptions volume;  ///< Where the files are volumes.
     std::string display;
-    std::string color = "gradient";
+    std::string color;  ///< Empty: the file's own colours where it has any, else "gradient".
     LightOptions light;
     std::string sampling = "native";  ///< Or "cartesian".
     DeliveryOptions delivery;
@@ -170,6 +188,7 @@ struct UniformityOptions {
 
 Expected<void> info(const InfoOptions& options);
 Expected<void> voxelize(const VoxelizeOptions& options);
+Expected<void> convert(const ConvertOptions& options);
 Expected<void> show(const ShowOptions& options);
 Expected<void> play(const PlayOptions& options);
 Expected<void> sim(const SimOptions& options);

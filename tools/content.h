@@ -24,7 +24,9 @@ public:
     /// Sets `voxels`, of the lattice's shape, to the samples inside of what is there after `seconds`, moved by `pose`.
     virtual Expected<void> draw(double seconds, const glm::dmat4& pose, BitVolumeView voxels) = 0;
 
-    /// The colours that it brings, as they lay when it was drawn last; null: it brings none.
+    /// Whether it brings colours.
+    virtual bool has_own_color() const { return false; }
+    /// These colours, as they lay when it was drawn last; only where it has them, after draw().
     virtual const host::ColorField* own_color() { return nullptr; }
 };
 

@@ -49,7 +49,6 @@ Expected<void> FrameMaker::paint(std::span<std::byte> frame, std::uint32_t numbe
 
 Expected<void> FrameMaker::paint_once(std::span<std::byte> frame, std::uint32_t number) {
     const host::ColorField* const color = color_ != nullptr ? color_ : content_.own_color();
-    if (color == nullptr) return fail("there is no colour to paint with");
     std::atomic<bool> painted = true;
     const auto paint_part = [&](unsigned part) {
         const auto begin = static_cast<std::uint32_t>(std::uint64_t{slices_} * part / threads_);

@@ -6,6 +6,8 @@
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/mesh_input.h"
+#include "tools/volume_info.h"
+#include "voxelizer/io/volume_reader.h"
 
 namespace xorvox::tools {
 namespace {
@@ -52,6 +54,7 @@ void print_text(const std::string& path, const io::MeshReport& r) {
 }  // namespace
 
 Expected<void> info(const InfoOptions& options) {
+    if (io::is_volume_path(options.mesh.path)) return volume_info(options.mesh.path, options.volume, options.json);
     const Expected<MeshInput> input = read_input(options.mesh);
     if (!input) return tl::unexpected(input.error());
     (options.json ? print_json : print_text)(options.mesh.path, input->report);

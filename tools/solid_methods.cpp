@@ -54,7 +54,7 @@ Error describe_simplicial_failure(Status status, const VoxelizeOptions& options,
 Expected<void> write(const VoxelizeOptions& options, const BitVolume& volume, const Lattice& lattice) {
     const StopRequests stop;
     const Progress progress("writing " + options.output);
-    return io::write_volume(options.output, volume.view(), lattice, stop.token());
+    return io::write_volume(options.output, volume.view(), lattice, stop.token(), {.gzip = options.gzip});
 }
 
 }  // namespace

@@ -9,16 +9,41 @@
 #include "tools/console.h"
 #include "tools/mesh_content.h"
 #include "tools/mesh_input.h"
+#include "tools/volume_content.h"
+#include "tools/volume_input.h"
+#include "voxelizer/io/file_name.h"
+#include "voxelizer/io/volume_reader.h"
 
 namespace xorvox::tools {
 namespace {
 
-Expected<std::unique_ptr<Content>> read_content(const StageOptions& options, const DisplayDescription& display,
+/// All files that are named.
+std::vector<std::string> paths(const StageOptions& options) {
+    std::vector<std::string> all{options.mesh.path};
+    all.insert(all.end(), options.following.begin(), options.following.end());
+    return all;
+}
+
+Expected<std::unique_ptr<Content>> read_volumes(const StageOptions& options, const DisplayDescription& display,
                                                 Turning turning) {
+    std::vector<VolumeInput> inputs;
+    for (const std::string& path : paths(options)) {
+        Expected<VolumeInput> input = read_volume_input(path, options.volume);
+        if (!input) return tl::unexpected(input.error());
+        if (inputs.empty() && input->threshold_found)
+            warn(io::printable_name(path) + ": " + describe_threshold(*input));
+        inputs.push_back(std::move(*input));
+    }
+    return VolumeContent::make(std::move(inputs), options.mesh.path, display, turning, 1.0 / options.files_per_second,
+                               1);
+}
+
+Expected<std::unique_ptr<Content>> read_meshes(const StageOptions& options, const DisplayDescription& display,
+                                               Turning turning) {
     std::vector<NamedMesh> meshes;
     MeshOptions mesh = options.mesh;
-    for (std::size_t i = 0; i <= options.following.size(); ++i) {
-        if (i > 0) mesh.path = options.following[i - 1];
+    for (const std::string& path : paths(options)) {
+        mesh.path = path;
         Expected<MeshInput> input = read_solid(mesh);
         if (!input) return tl::unexpected(input.error());
         meshes.push_back({std::move(input->mesh), mesh.path});
@@ -26,6 +51,23 @@ Expected<std::unique_ptr<Content>> read_content(const StageOptions& options, con
     auto content = MeshContent::make(std::move(meshes), display, turning, 1.0 / options.files_per_second, 1);
     if (!content) return tl::unexpected(content.error());
     return std::make_unique<MeshContent>(std::move(*content));
+}
+
+Expected<std::unique_ptr<Content>> read_content(const StageOptions& options, const DisplayDescription& display,
+                                                Turning turning) {
+    const bool volumes = io::is_volume_path(options.mesh.path);
+    for (const std::string& path : options.following) {
+        if (io::is_volume_path(path) == volumes) continue;
+        return fail(fmt::format("{} is a {} and {} is a {}; a sequence has one kind",
+                                io::printable_name(options.mesh.path), volumes ? "volume" : "mesh",
+                                io::printable_name(path), volumes ? "mesh" : "volume"));
+    }
+    if (volumes) return read_volumes(options, display, turning);
+    if (options.volume.threshold || options.volume.frame || !options.volume.transfer.empty()) {
+        return fail(fmt::format("--threshold, --transfer and --volume are for volumes, and {} is a mesh",
+                                io::printable_name(options.mesh.path)));
+    }
+    return read_meshes(options, display, turning);
 }
 
 }  // namespace
@@ -44,7 +86,7 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
     stage->display = std::move(*display);
     const Expected<ChosenLight> light = choose_light(options.light, stage->display);
     if (!light) return tl::unexpected(light.error());
-    auto color = choose_color(options.color);
+    auto color = choose_color(options.color.empty() ? "own" : options.color);
     if (!color) return fail("--color: " + color.error().message);
     stage->color = std::move(*color);
     if (const auto fits = check_display_fits(stage->display); !fits) return tl::unexpected(fits.error());
@@ -56,6 +98,13 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
     auto content = read_content(options, stage->display, turning);
     if (!content) return tl::unexpected(content.error());
     stage->content = std::move(*content);
+    if (stage->color == nullptr && !stage->content->has_own_color()) {
+        if (!options.color.empty()) {
+            return fail(
+                fmt::format("--color: own: {} has no colours of its own", io::printable_name(options.mesh.path)));
+        }
+        stage->color = std::move(*host::parse_color("gradient"));
+    }
     auto maker = FrameMaker::make(stage->display, *stage->content, stage->color.get(),
                                   {.light = light->settings, .resampled = options.sampling == "cartesian"});
     if (!maker) return tl::unexpected(maker.error());

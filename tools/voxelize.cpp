@@ -72,7 +72,7 @@ void print_text(const VoxelizeOptions& options, const SolidFile& file, bool is_o
 }  // namespace
 
 Expected<void> voxelize(const VoxelizeOptions& options) {
-    if (const auto known = io::check_volume_path(options.output); !known) return known;
+    if (const auto known = io::check_volume_path(options.output, {.gzip = options.gzip}); !known) return known;
     // Whether it can be written is said now, not after the work.
     if (const auto probe = io::AtomicFile::create(options.output); !probe) return tl::unexpected(probe.error());
     const Expected<MeshInput> input = read_mesh(options);

@@ -71,8 +71,7 @@ void fill_row(const SampledVolume& volume, double threshold, const Row& row, std
               std::uint32_t nx) {
     switch (volume.kind) {
         case VolumeKind::Scalar:
-            fill(volume, row, words, nx,
-                 [&](const glm::dvec3& at) { return value_between(volume, at) >= threshold; });
+            fill(volume, row, words, nx, [&](const glm::dvec3& at) { return value_between(volume, at) >= threshold; });
             break;
         case VolumeKind::Colors:
             fill(volume, row, words, nx,
@@ -88,8 +87,8 @@ void fill_row(const SampledVolume& volume, double threshold, const Row& row, std
 
 }  // namespace
 
-Status resample_rows(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume,
-                     const Lattice& lattice, RowRange rows, BitVolumeView out) {
+Status resample_rows(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume, const Lattice& lattice,
+                     RowRange rows, BitVolumeView out) {
     if (!fits(volume, lattice, rows, out)) return Status::InvalidArgument;
     for (std::size_t number = rows.first; number < rows.first + rows.count; ++number) {
         const auto y = static_cast<std::uint32_t>(number % lattice.ny);

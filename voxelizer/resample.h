@@ -3,7 +3,8 @@
 // A sample is taken to the volume's own voxels by an affine map. Beyond the volume's box nothing is inside. Within it,
 // Binary, Labels and Colors count by their nearest voxel (not 0, not wholly transparent), Scalar by the value between
 // the eight voxels around the sample (Rueda et al., section 3, have textures so): inside where it is at least the
-// threshold. Only + - × ÷ in double, always in the same order: the same bits on every machine, by any number of threads.
+// threshold. Only + - × ÷ in double, always in the same order: the same bits on every machine, by any number of
+// threads.
 #pragma once
 
 #include <cstddef>
@@ -28,16 +29,16 @@ struct RowRange {
 /// voxels, (i, j, k) being the centre of voxel (i, j, k); `threshold` is that of Scalar. `out` has the shape of
 /// `lattice`, which passes validate(). Allocates nothing; different rows may be made by different threads.
 /// InvalidArgument: shapes or tables that do not fit each other, rows that are not there.
-Status resample_rows(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume,
-                     const Lattice& lattice, RowRange rows, BitVolumeView out);
+Status resample_rows(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume, const Lattice& lattice,
+                     RowRange rows, BitVolumeView out);
 
 /// resample_rows() of all rows, shared by `threads` threads. Hosted. Throws what std::jthread throws.
 Status resample(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume, const Lattice& lattice,
                 BitVolumeView out, unsigned threads = 1);
 
 /// The threshold that parts `values` into two groups, each as uniform as can be: Otsu (1979), A threshold selection
-/// method from gray-level histograms, over 256 steps from the least to the most value. What is at least the threshold is
-/// the upper group. The least value itself when all are equal or there are none (0).
+/// method from gray-level histograms, over 256 steps from the least to the most value. What is at least the threshold
+/// is the upper group. The least value itself when all are equal or there are none (0).
 double otsu_threshold(std::span<const float> values);
 
 }  // namespace xorvox

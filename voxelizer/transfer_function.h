@@ -24,8 +24,8 @@ public:
 
     /// Reads `VALUE:COLOR[:OPACITY],…`, as in "0:black,0.3:#ff8000,1:white:0.5"; values increase, at most 256 stops.
     /// `parse_color` reads one colour. Errors say which stop is wrong, and why.
-    static Expected<TransferFunction> parse(
-        std::string_view text, const std::function<Expected<glm::dvec3>(std::string_view)>& parse_color);
+    static Expected<TransferFunction> parse(std::string_view text,
+                                            const std::function<Expected<glm::dvec3>(std::string_view)>& parse_color);
 
     /// The colour of `value` times its opacity: between two stops in proportion, in linear light; beyond them as there.
     /// Thread-safe.

@@ -32,22 +32,33 @@ inline std::size_t nearest_voxel(const SampledVolume& volume, const glm::dvec3& 
                         static_cast<std::uint32_t>(at.z + 0.5));
 }
 
-/// The value at `at`, which is within the volume, between those of the eight voxels around it: trilinear, as in Rueda et
-/// al., section 3. Beyond the outer centres it is as at the edge.
+/// Whether voxel number `n` is inside; `threshold` is that of Scalar.
+inline bool is_inside(const SampledVolume& volume, std::size_t n, double threshold) {
+    switch (volume.kind) {
+        case VolumeKind::Scalar: return double{volume.values[n]} >= threshold;
+        case VolumeKind::Colors: return volume.colors[n][3] != 0;
+        case VolumeKind::Binary:
+        case VolumeKind::Labels: break;
+    }
+    return volume.values[n] != 0.0f;
+}
+
+/// The value at `at`, which is within the volume, between those of the eight voxels around it: trilinear, as in Rueda
+/// et al., section 3. Beyond the outer centres it is as at the edge.
 inline double value_between(const SampledVolume& volume, const glm::dvec3& at) {
-    struct Axis {
+    struct Between {
         std::size_t low;
         std::size_t step;  // To the next voxel, in entries; 0 at the end.
         double part;
     };
-    const auto axis = [](double place, std::uint32_t side, std::size_t stride) -> Axis {
+    const auto axis = [](double place, std::uint32_t side, std::size_t stride) -> Between {
         const double inner = std::clamp(place, 0.0, static_cast<double>(side - 1));
         const auto low = static_cast<std::uint32_t>(inner);
         return {low * stride, low + 1 < side ? stride : 0, inner - low};
     };
-    const Axis x = axis(at.x, volume.nx, 1);
-    const Axis y = axis(at.y, volume.ny, volume.nx);
-    const Axis z = axis(at.z, volume.nz, std::size_t{volume.nx} * volume.ny);
+    const Between x = axis(at.x, volume.nx, 1);
+    const Between y = axis(at.y, volume.ny, volume.nx);
+    const Between z = axis(at.z, volume.nz, std::size_t{volume.nx} * volume.ny);
     const float* const from = volume.values.data() + (x.low + y.low + z.low);
     const auto along_x = [&](std::size_t offset) {
         const double a = double{from[offset]};

@@ -13,13 +13,6 @@ namespace {
 
 const std::string kDuck = std::string(XORVOX_SOURCE_DIR) + "/examples/duck.ply";
 
-double number(const std::string& json, const std::string& key) {
-    const std::size_t at = json.find("\"" + key + "\": ");
-    CAPTURE(json, key);
-    REQUIRE(at != json.npos);
-    return std::stod(json.substr(at + key.size() + 4));
-}
-
 std::vector<std::string> show(const std::string& display, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"show", kDuck, "--display", display, "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());

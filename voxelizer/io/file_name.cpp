@@ -14,6 +14,12 @@ std::string extension_of(std::string_view path) {
     return extension;
 }
 
+std::string volume_extension_of(std::string_view path) {
+    std::string extension = extension_of(path);
+    if (extension == ".gz" && extension_of(path.substr(0, path.size() - extension.size())) == ".nii") return ".nii.gz";
+    return extension;
+}
+
 std::string printable_name(std::string_view name) {
     std::string text;
     for (std::size_t i = 0; i < name.size(); ++i) {

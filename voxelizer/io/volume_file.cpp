@@ -1,5 +1,6 @@
 #include "voxelizer/io/volume_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -12,19 +13,30 @@
 namespace xorvox::io {
 namespace {
 
-enum class Format : std::uint8_t { Nrrd, Binvox, Bits };
+enum class Format : std::uint8_t { Nrrd, Binvox, Bits, Nifti, NiftiGz, Vox, Png };
 
-Expected<Format> format_of(const std::string& path) {
+constexpr std::uint32_t kMostVoxSide = 256;
+
+Expected<Format> format_of(const std::string& path, const VolumeWriteOptions& options) {
     const std::string name = printable_name(path);
-    const std::string extension = extension_of(path);
+    const std::string extension = volume_extension_of(path);
     if (!extension.empty() && std::filesystem::path(path).filename().string().size() == extension.size()) {
         return fail(fmt::format("{}: has no name before its extension; name a file, such as volume.nrrd", name));
+    }
+    if (options.gzip && extension != ".nrrd") {
+        return fail(fmt::format("{}: only .nrrd is packed on request; .nii.gz says it by its name", name));
     }
     if (extension == ".nrrd") return Format::Nrrd;
     if (extension == ".binvox") return Format::Binvox;
     if (extension == ".bits") return Format::Bits;
-    return fail(fmt::format("{}: the extension '{}' is of no known volume format; use .nrrd, .binvox or .bits", name,
-                            printable_name(extension)));
+    if (extension == ".nii") return Format::Nifti;
+    if (extension == ".nii.gz") return Format::NiftiGz;
+    if (extension == ".vox") return Format::Vox;
+    if (extension == ".png") return Format::Png;
+    return fail(
+        fmt::format("{}: the extension '{}' is of no known volume format; use .nrrd, .binvox, .nii, .nii.gz, .vox, "
+                    ".png or .bits",
+                    name, printable_name(extension)));
 }
 
 Expected<void> check(const std::string& name, Format format, const Lattice& lattice) {
@@ -39,6 +51,18 @@ Expected<void> check(const std::string& name, Format format, const Lattice& latt
         return fail(fmt::format("{}: binvox has one pitch for all axes, not {}, {} and {}; write .nrrd or .bits", name,
                                 pitch.x, pitch.y, pitch.z));
     }
+    if (format == Format::Vox) {
+        if (pitch.x != pitch.y || pitch.x != pitch.z) {
+            return fail(fmt::format("{}: voxels of MagicaVoxel are cubes, not {} × {} × {}; write .nrrd or .nii", name,
+                                    pitch.x, pitch.y, pitch.z));
+        }
+        if (std::max({lattice.nx, lattice.ny, lattice.nz}) > kMostVoxSide) {
+            return fail(
+                fmt::format("{}: a model of MagicaVoxel has at most {} voxels a side, not {} × {} × {}; choose "
+                            "a smaller grid, or write .nrrd or .nii",
+                            name, kMostVoxSide, lattice.nx, lattice.ny, lattice.nz));
+        }
+    }
     return {};
 }
 
@@ -47,19 +71,29 @@ tl::unexpected<Error> wrong_shape(const std::string& name, ConstBitVolumeView vo
                             volume.nz, lattice.nx, lattice.ny, lattice.nz));
 }
 
-std::unique_ptr<VolumeEncoder> encoder_of(Format format, const Lattice& lattice) {
+std::unique_ptr<VolumeEncoder> encoder_of(Format format, const Lattice& lattice, const VolumeWriteOptions& options) {
     switch (format) {
-        case Format::Nrrd: return nrrd_encoder(lattice);
+        case Format::Nrrd: return nrrd_encoder(lattice, options.gzip);
         case Format::Binvox: return binvox_encoder(lattice);
+        case Format::Nifti:
+        case Format::NiftiGz: return nifti_encoder(lattice);
+        case Format::Vox: return vox_encoder(lattice);
+        case Format::Png: return png_encoder();
         case Format::Bits: break;
     }
     return bits_encoder(lattice);
 }
 
+Expected<std::unique_ptr<VolumeSink>> sink_of(Format format, const std::string& path, const Lattice& lattice,
+                                              const VolumeWriteOptions& options) {
+    if (format == Format::Png) return picture_sink(path, lattice.nz);
+    return file_sink(path, options.gzip || format == Format::NiftiGz);
+}
+
 }  // namespace
 
-Expected<void> check_volume_path(const std::string& path) {
-    auto format = format_of(path);
+Expected<void> check_volume_path(const std::string& path, const VolumeWriteOptions& options) {
+    auto format = format_of(path, options);
     if (!format) return tl::unexpected(std::move(format.error()));
     return {};
 }
@@ -70,7 +104,7 @@ struct VolumeWriter::State {
     Lattice lattice;
     std::stop_token stop;
     std::function<void(double)> progress;
-    AtomicFile file;
+    std::unique_ptr<VolumeSink> sink;
     std::unique_ptr<VolumeEncoder> encoder;
     std::uint32_t written = 0;  // Planes.
 
@@ -89,7 +123,7 @@ struct VolumeWriter::State {
         }
         for (std::uint32_t i = 0; i < count; ++i) {
             if (stop.stop_requested()) return fail(name + ": stopped; nothing was written");
-            if (auto ok = encoder->add(file, slab, i); !ok) return ok;
+            if (auto ok = encoder->add(*sink, slab, i); !ok) return ok;
             ++written;
             if (progress) progress(static_cast<double>(written) / planes());
         }
@@ -103,17 +137,17 @@ VolumeWriter& VolumeWriter::operator=(VolumeWriter&&) noexcept = default;
 VolumeWriter::~VolumeWriter() = default;
 
 Expected<VolumeWriter> VolumeWriter::create(const std::string& path, const Lattice& lattice, std::stop_token stop,
-                                            std::function<void(double)> progress) {
-    auto format = format_of(path);
+                                            std::function<void(double)> progress, const VolumeWriteOptions& options) {
+    auto format = format_of(path, options);
     if (!format) return tl::unexpected(std::move(format.error()));
     std::string name = printable_name(path);
     if (auto ok = check(name, *format, lattice); !ok) return tl::unexpected(std::move(ok.error()));
-    auto file = AtomicFile::create(path);
-    if (!file) return tl::unexpected(std::move(file.error()));
+    auto sink = sink_of(*format, path, lattice, options);
+    if (!sink) return tl::unexpected(std::move(sink.error()));
     auto state = std::make_unique<State>(State{std::move(name), *format == Format::Binvox ? SlabAxis::X : SlabAxis::Z,
-                                               lattice, std::move(stop), std::move(progress), std::move(*file),
-                                               encoder_of(*format, lattice)});
-    if (auto ok = state->encoder->begin(state->file); !ok) return tl::unexpected(std::move(ok.error()));
+                                               lattice, std::move(stop), std::move(progress), std::move(*sink),
+                                               encoder_of(*format, lattice, options)});
+    if (auto ok = state->encoder->begin(*state->sink); !ok) return tl::unexpected(std::move(ok.error()));
     return VolumeWriter(std::move(state));
 }
 
@@ -130,13 +164,13 @@ Expected<void> VolumeWriter::commit() {
     if (state.written != state.planes()) {
         return fail(fmt::format("{}: only {} of {} planes are written", state.name, state.written, state.planes()));
     }
-    if (auto ok = state.encoder->end(state.file); !ok) return ok;
-    return state.file.commit();
+    if (auto ok = state.encoder->end(*state.sink); !ok) return ok;
+    return state.sink->commit();
 }
 
 Expected<void> write_volume(const std::string& path, ConstBitVolumeView volume, const Lattice& lattice,
-                            std::stop_token stop) {
-    auto writer = VolumeWriter::create(path, lattice, std::move(stop));
+                            std::stop_token stop, const VolumeWriteOptions& options) {
+    auto writer = VolumeWriter::create(path, lattice, std::move(stop), {}, options);
     if (!writer) return tl::unexpected(std::move(writer.error()));
     if (volume.nx != lattice.nx || volume.ny != lattice.ny || volume.nz != lattice.nz) {
         return wrong_shape(printable_name(path), volume, lattice);

@@ -16,15 +16,7 @@
 namespace xorvox::io {
 namespace {
 
-constexpr std::array<std::string_view, 6> kExtensions{".binvox", ".nrrd", ".nhdr", ".vox", ".png", ".nii"};
-
-// The extension that says what the file is: that of "scan.nii.gz" is ".nii".
-std::string volume_extension(const std::string& path) {
-    const std::string extension = extension_of(path);
-    if (extension != ".gz") return extension;
-    const std::string inner = extension_of(std::string_view(path).substr(0, path.size() - extension.size()));
-    return inner == ".nii" ? inner : extension;
-}
+constexpr std::array<std::string_view, 7> kExtensions{".binvox", ".nrrd", ".nhdr", ".vox", ".png", ".nii", ".nii.gz"};
 
 bool is_folder(const std::string& path) {
     std::error_code ignored;
@@ -32,7 +24,7 @@ bool is_folder(const std::string& path) {
 }
 
 Expected<VolumeSequence> read(const std::string& path, const std::string& name) {
-    const std::string extension = volume_extension(path);
+    const std::string extension = volume_extension_of(path);
     if (is_folder(path) || extension == ".png") return read_png_stack(path);
     if (std::ranges::find(kExtensions, extension) == kExtensions.end()) {
         return fail(
@@ -44,7 +36,7 @@ Expected<VolumeSequence> read(const std::string& path, const std::string& name) 
     if (!bytes) return tl::unexpected(bytes.error());
     if (extension == ".binvox") return parse_binvox(*bytes, name);
     if (extension == ".vox") return parse_vox(*bytes, name);
-    if (extension == ".nii") return parse_nifti(*bytes, name);
+    if (extension == ".nii" || extension == ".nii.gz") return parse_nifti(*bytes, name);
     return parse_nrrd(*bytes, name, [&path](const std::string& file) {
         const std::string beside = (std::filesystem::path(path).parent_path() / file).string();
         return read_file_bytes(beside, printable_name(beside), kMaxVolumeFileBytes, "a data file");
@@ -54,7 +46,7 @@ Expected<VolumeSequence> read(const std::string& path, const std::string& name) 
 }  // namespace
 
 bool is_volume_path(const std::string& path) {
-    return is_folder(path) || std::ranges::find(kExtensions, volume_extension(path)) != kExtensions.end();
+    return is_folder(path) || std::ranges::find(kExtensions, volume_extension_of(path)) != kExtensions.end();
 }
 
 Expected<VolumeSequence> read_volumes(const std::string& path) {
