@@ -66,7 +66,7 @@ Expected<void> check_still(const LightOptions& options) {
     if (options.dither != "temporal") return {};
     return fail(
         "--dither temporal: one frame shows a still, and it takes many to mix levels in time; use --dither "
-        "ordered, or --spin RPM");
+        "ordered, --spin RPM, or xorvox play");
 }
 
 std::string light_settings_json(const LightOptions& options) {

@@ -81,7 +81,7 @@ TEST_CASE("without dithering every set voxel is lit at any brightness, with it a
 }
 
 TEST_CASE("temporal dithering is for what moves", "[cli]") {
-    refused("cube8-595", {"--dither", "temporal"}, "--dither ordered, or --spin");
+    refused("cube8-595", {"--dither", "temporal"}, "--dither ordered, --spin RPM, or xorvox play");
     const std::string spun = shown("cube8-595", {"--dither", "temporal", "--spin", "30", "--seconds", "0.2"});
     CHECK_THAT(spun, Catch::Contains("\"dither\": \"temporal\""));
     CHECK(number(spun, "light_outside") == 0);
