@@ -15,6 +15,8 @@
 namespace xorvox::sim {
 namespace {
 
+constexpr double kRounding = 1e-9;
+
 double slice_angle(const DisplayDescription& display) {
     return glm::radians(display.sweep_deg) / display.slices;
 }
@@ -90,6 +92,28 @@ Spacing rotor_spacing(const DisplayDescription& display) {
 
 double plane_thickness_mm(const DisplayDescription& display, std::uint32_t slice) {
     return plane_height_mm(display, slice + 0.5) - plane_height_mm(display, slice - 0.5);
+}
+
+double passes_at(const DisplayDescription& display, const glm::dvec3& place_mm) {
+    if (display.kind != DisplayKind::RotatingPanel) return 1.0;
+    const double r = std::hypot(place_mm.x, place_mm.y);
+    double passes = 0.0;
+    for (std::uint32_t p = 0; p < display.panel_count; ++p) {
+        const Panel& panel = display.panels[p];
+        const double tilt = glm::radians(panel.tilt_deg);
+        const double up = (place_mm.z - panel.lift_mm) / std::cos(tilt);
+        if (std::abs(up) > upright_rows(panel) * upright_row_pitch_mm(panel) / 2.0) continue;
+        const double half = upright_columns(panel) * upright_column_pitch_mm(panel) / 2.0;
+        // Even columns, and odd ones, which may stand further out.
+        for (const double skew : {0.0, panel.skew_mm}) {
+            const double out = panel.offset_mm + skew + up * std::sin(tilt);
+            const double along = std::sqrt(std::max(r * r - out * out, 0.0));
+            if (r < std::abs(out) - kRounding * half) continue;
+            for (const double side : {along, -along}) passes += std::abs(side - panel.shift_mm) <= half ? 0.5 : 0.0;
+        }
+    }
+    // A sample's own panel passes it, whatever the sum over unlike columns says.
+    return std::max(passes, 1.0) * display.sweep_deg / 360.0;
 }
 
 SampleVolumes sample_volumes(const DisplayDescription& display) {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "driver/display/description.h"
 
 namespace xorvox::sim {
@@ -22,6 +24,11 @@ struct SampleVolumes {
 };
 /// `display` must be valid. Throws std::bad_alloc.
 SampleVolumes sample_volumes(const DisplayDescription& display);
+
+/// How often a cycle of `display` passes a place within it: the number of samples that stand for the space there. Of a
+/// rotating panel, how many panels come through the place, each half of one (on either side of its foot on the axis) by
+/// itself; 1 elsewhere.
+double passes_at(const DisplayDescription& display, const glm::dvec3& place_mm);
 
 /// How far the planes of a stack or of a swept plane are from each other at slice `slice`: from half a slice before it
 /// to half a slice after.

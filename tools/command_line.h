@@ -33,6 +33,7 @@ struct AllOptions {
     PlanOptions plan;
     PatternOptions pattern;
     ControlOptions control;
+    UniformityOptions uniformity;
 };
 
 /// What a subcommand is, and what runs when it was given.

@@ -262,13 +262,36 @@ Command control_command(CLI::App& program, ControlOptions& options) {
     return {&app, [&options] { return control(options); }};
 }
 
+Command uniformity_command(CLI::App& program, UniformityOptions& options) {
+    CLI::App& app = *program.add_subcommand(
+        "uniformity", "How even the light of displays is in space, as it comes and corrected; see docs/light.md");
+    app.add_option("displays", options.displays, "Presets or display files (default: every preset)")
+        ->type_name("NAME|FILE.toml");
+    app.add_option_function<std::string>(
+           "--frames",
+           [&options](const std::string& text) {
+               options.frames = parse_count("--frames", text, 1024);
+               if (options.frames == 0) throw CLI::ValidationError("--frames", "takes 1 or more");
+           },
+           "Over how many frames light that is dithered in time is summed: 1 to 1024 (default 8; it repeats after 64)")
+        ->type_name("N");
+    app.add_flag("--json", options.json, "One JSON array on standard output");
+    examples(app, "  xorvox uniformity\n  xorvox uniformity vortex mine.toml --frames 16");
+    return {&app, [&options] { return uniformity(options); }};
+}
+
 }  // namespace
 
 std::vector<Command> display_commands(CLI::App& program, AllOptions& options) {
-    return {show_command(program, options.show),         play_command(program, options.play),
-            share_command(program, options.share),       sim_command(program, options.sim),
-            displays_command(program, options.displays), validate_command(program, options.validate),
-            plan_command(program, options.plan),         pattern_command(program, options.pattern),
+    return {show_command(program, options.show),
+            play_command(program, options.play),
+            share_command(program, options.share),
+            sim_command(program, options.sim),
+            displays_command(program, options.displays),
+            validate_command(program, options.validate),
+            plan_command(program, options.plan),
+            pattern_command(program, options.pattern),
+            uniformity_command(program, options.uniformity),
             control_command(program, options.control)};
 }
 

@@ -195,6 +195,12 @@ struct BenchColorOptions {
     bool json = false;
 };
 
+struct UniformityOptions {
+    std::vector<std::string> displays;  ///< Empty: every preset.
+    std::uint32_t frames = 8;           ///< Of dithering in time; at least 1.
+    bool json = false;
+};
+
 Expected<void> info(const InfoOptions& options);
 Expected<void> voxelize(const VoxelizeOptions& options);
 Expected<void> convert(const ConvertOptions& options);
@@ -210,5 +216,6 @@ Expected<void> validate(const ValidateOptions& options);
 Expected<void> control(const ControlOptions& options);
 Expected<void> plan(const PlanOptions& options);
 Expected<void> pattern(const PatternOptions& options);
+Expected<void> uniformity(const UniformityOptions& options);
 
 }  // namespace xorvox::tools

@@ -218,6 +218,13 @@ void split_rest(const std::byte* pixels, std::uint32_t columns, const PlanePlace
 template <unsigned Bits>
 void split_row(const std::byte* pixels, std::uint32_t columns, const PlanePlaces& places) {
     std::size_t at = 0;
+    if constexpr (Bits == 1) {
+        // It is its plane already.
+        at = columns / 8;
+        std::memcpy(places[0], pixels, at);
+        pixels += at;
+        columns %= 8;
+    }
     for (; columns >= kBlock; columns -= kBlock, at += kBlockPlaneBytes) {
         split_block<Bits>(pixels, places, at);
         pixels += std::size_t{kBlock} * Bits / 8;
