@@ -74,11 +74,12 @@ glm::dmat4 turned(double turns) {
 }
 
 /// `mesh`, fitted into `display`.
-Expected<MeshContent> place(const Mesh& mesh, const std::string& source, const DisplayDescription& display,
-                            unsigned threads) {
-    std::vector<NamedMesh> meshes;
-    meshes.push_back({mesh, source});
-    return MeshContent::make(std::move(meshes), display, Turning::Upright, 0.0, threads);
+Expected<std::unique_ptr<MeshContent>> place(const Mesh& mesh, const std::string& source,
+                                             const DisplayDescription& display, unsigned threads) {
+    std::vector<NamedScene> scenes(1);
+    scenes.front().scene.mesh = mesh;
+    scenes.front().source = source;
+    return MeshContent::make(std::move(scenes), 0, display, Turning::Upright, 0.0, threads);
 }
 
 /// A frame's payloads as whole packets, as they go to the link. Their bytes.
@@ -101,7 +102,7 @@ Expected<Steps> measure_frames(const DisplayDescription& display, const Mesh& me
     options.threads = threads;
     auto content = place(mesh, source, display, threads);
     if (!content) return tl::unexpected(content.error());
-    const auto maker = FrameMaker::make(display, *content, color->get(), options);
+    const auto maker = FrameMaker::make(display, **content, color->get(), options);
     if (!maker) return tl::unexpected(maker.error());
     host::FrameEncoder encoder({.max_packet_bytes = wire::kMaxPacketBytes, .lz4 = true});
     std::vector<std::byte> packet(wire::kMaxPacketBytes);
@@ -143,11 +144,11 @@ Expected<Resampling> measure_resampling(const DisplayDescription& display, const
     FrameMakerOptions options;
     auto content = place(mesh, source, display, 1);
     if (!content) return tl::unexpected(content.error());
-    const auto native = FrameMaker::make(display, *content, color->get(), options);
+    const auto native = FrameMaker::make(display, **content, color->get(), options);
     if (!native) return tl::unexpected(native.error());
     if (const auto made = (*native)->draw(); !made) return tl::unexpected(made.error());
     options.resampled = true;
-    const auto resampled = FrameMaker::make(display, *content, color->get(), options);
+    const auto resampled = FrameMaker::make(display, **content, color->get(), options);
     if (!resampled) return tl::unexpected(resampled.error());
     if (const auto made = (*resampled)->draw(); !made) return tl::unexpected(made.error());
 

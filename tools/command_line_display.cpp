@@ -125,6 +125,10 @@ Command play_command(CLI::App& program, PlayOptions& options) {
     add_positive(
         app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
         "How long to play (default: until all has moved once)");
+    app.add_option("--animation", options.stage.animation,
+                   "Which of the file's animations, by its name or number from 0 (default the first; xorvox info lists "
+                   "them)")
+        ->type_name("NAME|N");
     app.add_flag("--loop", options.loop, "Begin anew at the end, until interrupted or for --seconds");
     app.parse_complete_callback([&options] {
         if (options.files.empty()) return;

@@ -95,7 +95,8 @@ struct StageOptions {
     MeshOptions mesh;
     std::vector<std::string> following;  ///< More files of the same kind, shown one after the other.
     double files_per_second = 10.0;
-    VolumeOptions volume;  ///< Where the files are volumes.
+    std::string animation;  ///< Of a file that has some: its name or number; empty: the first.
+    VolumeOptions volume;   ///< Where the files are volumes.
     std::string display;
     std::string color;  ///< Empty: the file's own colours where it has any, else "gradient".
     LightOptions light;

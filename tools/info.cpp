@@ -116,18 +116,9 @@ Expected<void> info(const InfoOptions& options) {
                                 is_volume ? "volume" : "mesh"));
     }
     if (is_volume) return volume_info(options.mesh.path, options.volume, options.json);
-    const Expected<io::MeshReadOptions> read = read_options(options.mesh);
-    if (!read) return tl::unexpected(read.error());
-    io::MeshReport report;
-    io::Scene scene;
-    {
-        const Progress progress("reading " + options.mesh.path);
-        Expected<io::Scene> found = io::read_scene(options.mesh.path, *read);
-        if (!found) return tl::unexpected(found.error());
-        scene = std::move(*found);
-        report = io::report(scene.mesh.view());
-    }
-    (options.json ? print_json : print_text)(options.mesh.path, report, scene);
+    const Expected<SceneInput> input = read_scene_input(options.mesh);
+    if (!input) return tl::unexpected(input.error());
+    (options.json ? print_json : print_text)(options.mesh.path, input->report, input->scene);
     return {};
 }
 

@@ -12,7 +12,6 @@
 #include "voxelizer/io/file_name.h"
 
 namespace xorvox::tools {
-
 namespace {
 
 std::string import_program() {
@@ -21,6 +20,19 @@ std::string import_program() {
     std::error_code failed;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
     return failed ? std::string() : (self.parent_path() / "xorvox-import").string();
+}
+
+/// Warns of open edges, or refuses them.
+Expected<void> judge(const io::MeshReport& report, const MeshOptions& options, const std::string& holes) {
+    if (report.closed_mod2) return {};
+    const std::size_t open = report.open_edges;
+    const std::string found =
+        fmt::format("{}: {} open {}", io::printable_name(options.path), thousands(open), open == 1 ? "edge" : "edges");
+    if (options.strict) {
+        return fail(found + ", and --strict wants a closed mesh; close its holes or leave out --strict");
+    }
+    warn(found + "; " + holes + " (xorvox info tells more)");
+    return {};
 }
 
 }  // namespace
@@ -41,7 +53,7 @@ Expected<io::MeshReadOptions> read_options(const MeshOptions& options) {
     return read;
 }
 
-Expected<MeshInput> read_input(const MeshOptions& options) {
+Expected<MeshInput> read_solid(const MeshOptions& options, const std::string& holes) {
     const Expected<io::MeshReadOptions> read = read_options(options);
     if (!read) return tl::unexpected(read.error());
     MeshInput input;
@@ -52,18 +64,27 @@ Expected<MeshInput> read_input(const MeshOptions& options) {
         input.mesh = std::move(*mesh);
         input.report = io::report(input.mesh.view());
     }
+    if (const auto judged = judge(input.report, options, holes); !judged) return tl::unexpected(judged.error());
     return input;
 }
 
-Expected<MeshInput> read_solid(const MeshOptions& options, const std::string& holes) {
-    Expected<MeshInput> input = read_input(options);
-    if (!input || input->report.closed_mod2) return input;
-    const std::size_t open = input->report.open_edges;
-    const std::string found =
-        fmt::format("{}: {} open {}", io::printable_name(options.path), thousands(open), open == 1 ? "edge" : "edges");
-    if (options.strict)
-        return fail(found + ", and --strict wants a closed mesh; close its holes or leave out --strict");
-    warn(found + "; " + holes + " (xorvox info tells more)");
+Expected<SceneInput> read_scene_input(const MeshOptions& options) {
+    const Expected<io::MeshReadOptions> read = read_options(options);
+    if (!read) return tl::unexpected(read.error());
+    SceneInput input;
+    const Progress progress("reading " + options.path);
+    Expected<io::Scene> scene = io::read_scene(options.path, *read);
+    if (!scene) return tl::unexpected(scene.error());
+    input.scene = std::move(*scene);
+    input.report = io::report(input.scene.mesh.view());
+    return input;
+}
+
+Expected<SceneInput> read_solid_scene(const MeshOptions& options) {
+    Expected<SceneInput> input = read_scene_input(options);
+    if (!input) return input;
+    if (const auto judged = judge(input->report, options, kHoles); !judged) return tl::unexpected(judged.error());
+    for (const std::string& note : input->scene.notes) warn(io::printable_name(options.path) + ": " + note);
     return input;
 }
 

@@ -1,5 +1,7 @@
 #include "tools/stage.h"
 
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,19 +40,40 @@ Expected<std::unique_ptr<Content>> read_volumes(const StageOptions& options, con
                                1);
 }
 
+/// The animation that is meant, by its name or number, counted from 0; the first one without either.
+Expected<std::size_t> choose_animation(const io::Scene& scene, const std::string& name, const std::string& path) {
+    if (name.empty()) return std::size_t{0};
+    const std::span<const io::SceneAnimation> animations =
+        scene.motion ? scene.motion->animations() : std::span<const io::SceneAnimation>();
+    std::string known;
+    for (std::size_t i = 0; i < animations.size(); ++i) {
+        if (name == animations[i].name || name == std::to_string(i)) return i;
+        known += fmt::format("{}{} {}", known.empty() ? "" : ", ", i, animations[i].name);
+    }
+    return fail(fmt::format("--animation: {} has no \"{}\"; it has {}", io::printable_name(path), name,
+                            known.empty() ? "none" : known));
+}
+
 Expected<std::unique_ptr<Content>> read_meshes(const StageOptions& options, const DisplayDescription& display,
                                                Turning turning) {
-    std::vector<NamedMesh> meshes;
+    const bool wants_colors = options.color.empty() || options.color == "own";
+    std::vector<NamedScene> scenes;
     MeshOptions mesh = options.mesh;
     for (const std::string& path : paths(options)) {
         mesh.path = path;
-        Expected<MeshInput> input = read_solid(mesh);
+        Expected<SceneInput> input = read_solid_scene(mesh);
         if (!input) return tl::unexpected(input.error());
-        meshes.push_back({std::move(input->mesh), mesh.path});
+        if (wants_colors && !input->scene.colors_fault.empty()) {
+            return fail(input->scene.colors_fault + " (--color gradient shows the shape alone)");
+        }
+        scenes.push_back({std::move(input->scene), path});
     }
-    auto content = MeshContent::make(std::move(meshes), display, turning, 1.0 / options.files_per_second, 1);
+    const auto animation = choose_animation(scenes.front().scene, options.animation, options.mesh.path);
+    if (!animation) return tl::unexpected(animation.error());
+    auto content =
+        MeshContent::make(std::move(scenes), *animation, display, turning, 1.0 / options.files_per_second, 1);
     if (!content) return tl::unexpected(content.error());
-    return std::make_unique<MeshContent>(std::move(*content));
+    return std::move(*content);
 }
 
 Expected<std::unique_ptr<Content>> read_content(const StageOptions& options, const DisplayDescription& display,
