@@ -24,7 +24,7 @@ target_compile_features(xorvox_options INTERFACE cxx_std_20)
 target_compile_options(xorvox_options INTERFACE -ffp-contract=off)
 if(XORVOX_DEVELOPER)
   target_compile_options(xorvox_options INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wno-missing-field-initializers
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor> -Wno-missing-field-initializers
     -Werror)
 endif()
 

@@ -61,7 +61,10 @@ void examples(CLI::App& app, const std::string& text) {
 }
 
 void add_mesh(CLI::App& app, MeshOptions& mesh) {
-    app.add_option("mesh", mesh.path, "The mesh: a .ply, .stl or .obj file")->required()->type_name("MESH");
+    app.add_option("mesh", mesh.path,
+                   "The mesh: a .ply, .stl, .obj, .gltf or .glb file, or a rarer one, as .fbx or .dae")
+        ->required()
+        ->type_name("MESH");
     add_reading(app, mesh);
 }
 
@@ -69,7 +72,8 @@ void add_reading(CLI::App& app, MeshOptions& mesh) {
     app.add_option("--unit", mesh.unit, "The unit of the file's numbers, which then become millimetres")
         ->type_name("mm|cm|m|in|ft");
     app.add_option("--up", mesh.up,
-                   "The axis that points up in the file; the mesh is turned so that it is z (default z)")
+                   "The axis that points up in the file; the mesh is turned so that it is z (default: what the format "
+                   "defines, y for glTF; z where it defines nothing, as PLY, STL and OBJ)")
         ->type_name("x|y|z");
 }
 

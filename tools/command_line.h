@@ -24,8 +24,10 @@ struct AllOptions {
     ShowOptions show;
     PlayOptions play;
     SimOptions sim;
+    ShareOptions share;
     BenchOptions bench;
     BenchDisplayOptions bench_display;
+    BenchColorOptions bench_color;
     DisplaysOptions displays;
     ValidateOptions validate;
     PlanOptions plan;

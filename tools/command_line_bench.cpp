@@ -51,19 +51,37 @@ CLI::App& bench_displays_command(CLI::App& bench, BenchDisplayOptions& options) 
     return app;
 }
 
+CLI::App& bench_color_command(CLI::App& bench, BenchColorOptions& options) {
+    CLI::App& app = *bench.add_subcommand("color",
+                                          "Measure how fast voxels are painted, and frames taken apart into bit "
+                                          "planes, against a copy of the same bytes; "
+                                          "and how fast each colour function is at the voxels of the mesh");
+    app.add_option("mesh", options.mesh, "The mesh: a .ply, .stl or .obj file")->required()->type_name("MESH");
+    app.add_option("--display", options.display, "A preset or a display file")
+        ->capture_default_str()
+        ->type_name("NAME|FILE.toml");
+    app.add_flag("--quick", options.quick, "Few and short runs, for a first look");
+    app.add_flag("--json", options.json, "One JSON object on standard output");
+    examples(app, "  xorvox bench color examples/duck.ply\n  xorvox bench color bunny.ply --display vx1 --quick");
+    return app;
+}
+
 }  // namespace
 
 Command bench_command(CLI::App& program, AllOptions& options) {
     CLI::App& bench = *program.add_subcommand("bench", "Measure how fast this machine is");
     bench.require_subcommand(1);
-    examples(
-        bench,
-        "  xorvox bench voxelize bunny.ply\n  xorvox bench displays bunny.ply\n\nxorvox bench voxelize --help tells "
-        "more.");
+    examples(bench,
+             "  xorvox bench voxelize bunny.ply\n  xorvox bench displays bunny.ply\n  xorvox bench color "
+             "bunny.ply\n\nxorvox bench voxelize --help tells "
+             "more.");
     CLI::App& of_voxelizer = bench_voxelize_command(bench, options.bench);
-    bench_displays_command(bench, options.bench_display);
-    return {&bench, [&options, &of_voxelizer] {
-                return of_voxelizer.parsed() ? bench_voxelize(options.bench) : bench_displays(options.bench_display);
+    CLI::App& of_displays = bench_displays_command(bench, options.bench_display);
+    bench_color_command(bench, options.bench_color);
+    return {&bench, [&options, &of_voxelizer, &of_displays] {
+                if (of_voxelizer.parsed()) return bench_voxelize(options.bench);
+                if (of_displays.parsed()) return bench_displays(options.bench_display);
+                return bench_color(options.bench_color);
             }};
 }
 

@@ -1,9 +1,6 @@
-// The commands about displays: show, sim, displays, validate, plan, pattern and control.
-#include <algorithm>
-
+// The commands about displays: show, play, share, sim, displays, validate, plan, pattern and control.
 #include <fmt/format.h>
 
-#include "driver/host/white.h"
 #include "tools/color_choice.h"
 #include "tools/command_line.h"
 
@@ -23,7 +20,7 @@ PictureSize parse_size(const std::string& option, const std::string& text) {
     return {parse_count(option, text.substr(0, cross), 4096), parse_count(option, text.substr(cross + 1), 4096)};
 }
 
-/// Where light goes; for show and pattern.
+/// Where light goes; for show, pattern and share.
 void add_delivery(CLI::App& app, DeliveryOptions& options) {
     app.add_option("--to", options.to,
                    "Where it goes: loopback (a simulated display in this program, the default), tcp:HOST:PORT, or "
@@ -215,6 +212,28 @@ Command pattern_command(CLI::App& program, PatternOptions& options) {
     return {&app, [&options] { return pattern(options); }};
 }
 
+Command share_command(CLI::App& program, ShareOptions& options) {
+    CLI::App& app = *program.add_subcommand(
+        "share", "Let other programs draw on a display, through shared memory (docs/share.md), until interrupted");
+    add_display(app, options.display);
+    app.add_option("--socket", options.socket, "Where they connect: a path, at which a Unix socket is made")
+        ->required()
+        ->type_name("PATH");
+    add_positive(
+        app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
+        "How long (default: until interrupted)");
+    app.add_option_function<std::string>(
+           "--frames",
+           [&options](const std::string& text) { options.frames = parse_count("--frames", text, 1'000'000'000); },
+           "End when so many frames were drawn and the last one was shown (default: any number)")
+        ->type_name("N");
+    add_delivery(app, options.delivery);
+    examples(app,
+             "  xorvox share --display vortex --socket /tmp/vortex --to tcp:127.0.0.1:7777\n"
+             "  xorvox share --display cube16-ws2812 --socket /tmp/cube --frames 100 --png cube.png");
+    return {&app, [&options] { return share(options); }};
+}
+
 Command control_command(CLI::App& program, ControlOptions& options) {
     CLI::App& app = *program.add_subcommand(
         "control", "Ask a distant display how it is, and tell it: clear a fault, brightness, dark, watchdog");
@@ -261,69 +280,14 @@ Command uniformity_command(CLI::App& program, UniformityOptions& options) {
     return {&app, [&options] { return uniformity(options); }};
 }
 
-/// "0.9,1,0.85" or "5000" into `light`.
-void parse_white(const std::string& text, LightOptions& light) {
-    const std::vector<double> numbers = parse_numbers(text);
-    const auto is_gain = [](double number) { return number >= 0.0 && number <= 1.0; };
-    light.white.reset();
-    light.white_kelvin.reset();
-    if (numbers.size() == 1 && numbers[0] >= host::kLeastKelvin && numbers[0] <= host::kMostKelvin) {
-        light.white_kelvin = numbers[0];
-    } else if (numbers.size() == 3 && std::ranges::all_of(numbers, is_gain)) {
-        light.white = glm::dvec3(numbers[0], numbers[1], numbers[2]);
-    } else {
-        throw CLI::ValidationError(
-            "--white", fmt::format("'{}' is neither three gains from 0 to 1, as in 1,0.8,0.7, nor one number of "
-                                   "kelvin from {:g} to {:g}, as in 5000",
-                                   text, host::kLeastKelvin, host::kMostKelvin));
-    }
-}
-
 }  // namespace
 
-void add_light(CLI::App& app, LightOptions& light) {
-    app.add_option(
-           "--light", light.mode,
-           "bright: every sample inside is lit in full (the default); uniform: each voxel once a panel, so that a "
-           "rotor is as bright at its rim as at its axis; even: all of them, dimmed where they stand close together")
-        ->check(CLI::IsMember({"bright", "uniform", "even"}).description(""))
-        ->type_name("bright|uniform|even");
-    app.add_option(
-           "--dither", light.dither,
-           "Light between two levels of the display: none, the nearest level (the default); ordered, mixed over "
-           "neighbours; temporal, mixed over 64 frames as well, for what moves")
-        ->check(CLI::IsMember({"none", "ordered", "temporal"}).description(""))
-        ->type_name("none|ordered|temporal");
-    app.add_option_function<std::string>(
-           "--brightness",
-           [&light](const std::string& text) {
-               const std::vector<double> numbers = parse_numbers(text);
-               if (numbers.size() != 1 || !(numbers[0] >= 0.0 && numbers[0] <= 100.0)) {
-                   throw CLI::ValidationError("--brightness", fmt::format("'{}' is not a number from 0 to 100", text));
-               }
-               light.brightness_percent = numbers[0];
-           },
-           "Of all light, 0 to 100 (the default)")
-        ->type_name("PERCENT");
-    app.add_option_function<std::string>(
-           "--white", [&light](const std::string& text) { parse_white(text, light); },
-           "White balance: gains of red, green and blue from 0 to 1, or a colour temperature from 1500 to 15000")
-        ->type_name("R,G,B|KELVIN");
-    app.add_option("--calibration", light.calibration,
-                   "How bright each LED is beside the others, measured; docs/light.md has the format")
-        ->type_name("FILE.csv");
-}
-
 std::vector<Command> display_commands(CLI::App& program, AllOptions& options) {
-    return {show_command(program, options.show),
-            play_command(program, options.play),
-            sim_command(program, options.sim),
-            displays_command(program, options.displays),
-            validate_command(program, options.validate),
-            plan_command(program, options.plan),
-            pattern_command(program, options.pattern),
-            control_command(program, options.control),
-            uniformity_command(program, options.uniformity)};
+    return {show_command(program, options.show),         play_command(program, options.play),
+            share_command(program, options.share),       sim_command(program, options.sim),
+            displays_command(program, options.displays), validate_command(program, options.validate),
+            plan_command(program, options.plan),         pattern_command(program, options.pattern),
+            control_command(program, options.control),   uniformity_command(program, options.uniformity)};
 }
 
 }  // namespace xorvox::tools

@@ -45,6 +45,7 @@ Command info_command(CLI::App& program, InfoOptions& options) {
     CLI::App& app =
         *program.add_subcommand("info", "Say what a mesh is: size, holes, faults, volume; or what a volume is");
     add_mesh(app, options.mesh);
+    app.get_option("mesh")->description("The mesh, a .ply, .stl or .obj file; or a volume (see xorvox convert --help)");
     add_volume(app, options.volume);
     app.add_flag("--json", options.json, "One JSON object on standard output");
     examples(app, "  xorvox info bunny.ply\n  xorvox info part.stl --unit in --json\n  xorvox info scan.nii.gz");

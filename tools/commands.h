@@ -19,9 +19,9 @@ namespace xorvox::tools {
 /// How a mesh file is to be read; shared by info, voxelize and show.
 struct MeshOptions {
     std::string path;
-    std::string unit;      ///< Of the file's numbers, which then become millimetres; empty: as they are.
-    std::string up = "z";  ///< The file's axis that points up.
-    bool strict = false;   ///< Refuse open meshes.
+    std::string unit;     ///< Of the file's numbers, which then become millimetres; empty: as they are.
+    std::string up;       ///< The file's axis that points up; empty: what its format defines.
+    bool strict = false;  ///< Refuse open meshes.
 };
 
 /// `--grid`, `--origin` and `--pitch` as typed; `--size` instead of the three.
@@ -78,7 +78,7 @@ struct PictureSize {
     std::uint32_t height = 0;
 };
 
-/// Where light goes, and what is told of it; shared by show and pattern.
+/// Where light goes, and what is told of it; shared by show, pattern and share.
 struct DeliveryOptions {
     std::string to = "loopback";
     std::string png;
@@ -124,6 +124,14 @@ struct PatternOptions {
     std::string display;
     std::string name;      ///< Empty with `list`.
     double seconds = 0.0;  ///< Of a pattern that moves; 0: once through it.
+    DeliveryOptions delivery;
+};
+
+struct ShareOptions {
+    std::string display;
+    std::string socket;        ///< Where other programs connect; a path.
+    double seconds = 0.0;      ///< 0: until a signal.
+    std::uint32_t frames = 0;  ///< Ends when so many were published and the last is shown; 0: any number.
     DeliveryOptions delivery;
 };
 
@@ -180,6 +188,13 @@ struct BenchDisplayOptions {
     bool json = false;
 };
 
+struct BenchColorOptions {
+    std::string mesh;
+    std::string display = "vortex";
+    bool quick = false;
+    bool json = false;
+};
+
 struct UniformityOptions {
     std::vector<std::string> displays;  ///< Empty: every preset.
     std::uint32_t frames = 8;           ///< Of dithering in time; at least 1.
@@ -192,8 +207,10 @@ Expected<void> convert(const ConvertOptions& options);
 Expected<void> show(const ShowOptions& options);
 Expected<void> play(const PlayOptions& options);
 Expected<void> sim(const SimOptions& options);
+Expected<void> share(const ShareOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> bench_displays(const BenchDisplayOptions& options);
+Expected<void> bench_color(const BenchColorOptions& options);
 Expected<void> displays(const DisplaysOptions& options);
 Expected<void> validate(const ValidateOptions& options);
 Expected<void> control(const ControlOptions& options);

@@ -128,7 +128,7 @@ Expected<void> convert(const ConvertOptions& options) {
     }();
     if (!input) return tl::unexpected(std::move(input.error()));
     if (const std::size_t frames = input->sequence.frames.size(); frames > 1) {
-        return fail(fmt::format("{} has {} frames; choose one by --frame 0 to {}", options.input, frames, frames - 1));
+        return fail(fmt::format("{} has {} frames; choose one by --volume 0 to {}", options.input, frames, frames - 1));
     }
     const SampledVolume& volume = input->sequence.frames.front();
     if (std::max({volume.nx, volume.ny, volume.nz}) > kMaxLatticeSide) {

@@ -1,30 +1,53 @@
 #include "tools/mesh_input.h"
 
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "tools/console.h"
 #include "voxelizer/io/file_name.h"
-#include "voxelizer/io/mesh_file.h"
 
 namespace xorvox::tools {
 
-Expected<MeshInput> read_input(const MeshOptions& options) {
+namespace {
+
+std::string import_program() {
+    const char* const named = std::getenv("XORVOX_IMPORT");
+    if (named && *named != '\0') return named;
+    std::error_code failed;
+    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
+    return failed ? std::string() : (self.parent_path() / "xorvox-import").string();
+}
+
+}  // namespace
+
+Expected<io::MeshReadOptions> read_options(const MeshOptions& options) {
     io::MeshReadOptions read;
     if (!options.unit.empty()) {
         const Expected<double> scale = io::unit_in_mm(options.unit);
         if (!scale) return fail("--unit: " + scale.error().message);
         read.scale = *scale;
     }
-    const Expected<io::UpAxis> up = io::up_axis(options.up);
-    if (!up) return fail("--up: " + up.error().message);
-    read.up = *up;
+    if (!options.up.empty()) {
+        const Expected<io::UpAxis> up = io::up_axis(options.up);
+        if (!up) return fail("--up: " + up.error().message);
+        read.up = *up;
+    }
+    read.import_program = import_program();
+    return read;
+}
 
+Expected<MeshInput> read_input(const MeshOptions& options) {
+    const Expected<io::MeshReadOptions> read = read_options(options);
+    if (!read) return tl::unexpected(read.error());
     MeshInput input;
     {
         const Progress progress("reading " + options.path);
-        Expected<Mesh> mesh = io::read_mesh(options.path, read);
+        Expected<Mesh> mesh = io::read_mesh(options.path, *read);
         if (!mesh) return tl::unexpected(mesh.error());
         input.mesh = std::move(*mesh);
         input.report = io::report(input.mesh.view());

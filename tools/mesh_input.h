@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tools/commands.h"
+#include "voxelizer/io/mesh_file.h"
 #include "voxelizer/io/mesh_report.h"
 #include "voxelizer/mesh.h"
 
@@ -12,6 +13,10 @@ struct MeshInput {
     Mesh mesh;
     io::MeshReport report;
 };
+
+/// `--unit` and `--up` as the readers take them, and the importer of the rarer formats: what the environment variable
+/// XORVOX_IMPORT names, else xorvox-import beside this program.
+Expected<io::MeshReadOptions> read_options(const MeshOptions& options);
 
 /// Reads and examines the mesh.
 Expected<MeshInput> read_input(const MeshOptions& options);

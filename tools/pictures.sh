@@ -1,5 +1,6 @@
 #!/bin/bash
-# The pictures of docs/displays.md: the demo model on every preset, drawn by the program. Build first (tools/demo.sh does).
+# The pictures of docs/displays.md and docs/color.md: the demo model on every preset, and by each command of the page on
+# colours, drawn by the program. Build first (tools/demo.sh does).
 #   tools/pictures.sh [PROGRAM]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,4 +14,8 @@ for name in $("$xorvox" displays | cut -d' ' -f1); do
     [[ $name == candle ]] && light=bright # so few samples that every one is needed
     "$xorvox" show examples/duck.ply --display "$name" --color "$color" --light "$light" --size 480x360 \
         --png "docs/images/displays/$name.png"
+done
+mkdir -p docs/images/color
+grep -oE '^    xorvox show examples/.* --png [a-z]+\.png$' docs/color.md | while read -r _ arguments; do
+    eval "\"$xorvox\" ${arguments% --png *} --size 320x240 --png docs/images/color/${arguments##* --png }"
 done

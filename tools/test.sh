@@ -59,7 +59,7 @@ count_tests() {
 }
 
 # What runs in several threads.
-threaded='^(contract.transport|unit.session|cli.program)|^unit.device:.*(ring|interrupts)|^unit.host:.*(framebuffer|page exchange)|^unit.voxelizer:.*(threads|region|slabs|batches|stopped|same time|moves|rounds)'
+threaded='^(contract.transport|unit.session|cli.program)|^unit.device:.*(ring|interrupts)|^unit.host:.*(framebuffer|page exchange|shared frames.*full speed)|^unit.voxelizer:.*(threads|region|slabs|batches|stopped|same time|moves|rounds)'
 
 need $packages_build $packages_test
 export XORVOX_REQUIRE=${XORVOX_REQUIRE:-}

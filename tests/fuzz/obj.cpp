@@ -1,6 +1,16 @@
-#include "tests/fuzz/io_mesh.h"
-#include "voxelizer/io/mesh_file.h"
+#include "tests/fuzz/io_colors.h"
+#include "voxelizer/io/obj_colors.h"
+
+using namespace xorvox;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return check_parser(xorvox::io::parse_obj, data, size);
+    check_parser(io::parse_obj, data, size);
+    std::map<std::string, io::MtlMaterial, std::less<>> materials;
+    const auto ok = io::parse_mtl({reinterpret_cast<const char*>(data), size}, "file", materials);
+    require(ok || ok.error().message.starts_with("file: line "));
+    return check_parser(
+        [](std::string_view bytes, std::string_view source) {
+            return mesh_of(io::parse_colored_obj(bytes, source, io::Wanted::ShapeAndColors, io::SideFiles()));
+        },
+        data, size);
 }

@@ -2,6 +2,7 @@
 // driver/PROTOCOL.md shows the same bytes. `#` begins a comment; bytes are two hexadecimal digits.
 //
 //   messages.hex       NAME bytes …                one packet of each message
+//   shared_frames.hex  NAME bytes …                each message of driver/host/shared_frames.h, and a segment's head
 //   conversation.hex   at NS                       the device's clock
 //                      boundary                    its display's cycle begins anew
 //                      > bytes …   < bytes …       host to device, device to host

@@ -6,10 +6,11 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include "voxelizer/io/file_bytes.h"
 #include "voxelizer/io/file_name.h"
+#include "voxelizer/io/formats.h"
 #include "voxelizer/io/jpeg.h"
 #include "voxelizer/io/load.h"
+#include "voxelizer/io/read_file.h"
 
 namespace xorvox::io {
 namespace {
@@ -113,7 +114,7 @@ Expected<Image> decode_image(std::string_view bytes, std::string_view source) {
 Expected<Image> read_image(const std::string& path) {
     const std::string name = printable_name(path);
     try {
-        const auto bytes = read_file_bytes(path, name, kMaxImageFileBytes, "an image file");
+        const auto bytes = read_file(path, name, kImageFile);
         if (!bytes) return tl::unexpected(bytes.error());
         return decode_image(*bytes, name);
     } catch (const std::bad_alloc&) {

@@ -9,6 +9,8 @@
 #include "voxelizer/io/formats.h"
 #include "voxelizer/io/mesh_builder.h"
 #include "voxelizer/io/mesh_file.h"
+#include "voxelizer/io/obj_colors.h"
+#include "voxelizer/io/parsed_model.h"
 #include "voxelizer/io/text_scanner.h"
 
 namespace xorvox::io {
@@ -28,10 +30,10 @@ constexpr std::array<std::string_view, 14> kIgnoredLines = {"o",        "g",    
 
 class Parser {
 public:
-    Parser(std::string_view text, std::string_view source)
-        : scanner_(text, TextScanner::Dialect::Obj), source_(source) {}
+    Parser(std::string_view text, std::string_view source, Wanted wanted)
+        : scanner_(text, TextScanner::Dialect::Obj), source_(source), wants_colors_(wanted == Wanted::ShapeAndColors) {}
 
-    Expected<Mesh> parse() && {
+    Expected<ParsedModel> parse(const SideFiles& side_files) && {
         while (scanner_.next_line()) {
             if (!parse_line()) return fail(std::move(error_));
         }
@@ -39,7 +41,19 @@ public:
             return fail(fmt::format("{}: line {}: vertex {} of a file with {}; the file is damaged or was cut short",
                                     source_, highest_.line, highest_.vertex, builder_.vertex_count()));
         }
-        return std::move(builder_).finish(source_);
+        auto mesh = std::move(builder_).finish(source_);
+        if (!mesh) return tl::unexpected(std::move(mesh.error()));
+        ParsedModel parsed;
+        parsed.mesh = std::move(*mesh);
+        if (wants_colors_) {
+            auto colors = std::move(colors_).resolve(parsed.mesh.view(), source_, side_files);
+            if (colors) {
+                parsed.colors = std::move(*colors);
+            } else {
+                parsed.colors_fault = colors.error().message;
+            }
+        }
+        return parsed;
     }
 
 private:
@@ -47,6 +61,11 @@ private:
         const std::string_view keyword = scanner_.word();
         if (keyword == "v") return parse_vertex();
         if (keyword == "f") return parse_face();
+        if (wants_colors_) {
+            if (keyword == "vt") return parse_texcoord();
+            if (keyword == "usemtl") return take_name([this](std::string_view name) { colors_.use_material(name); });
+            if (keyword == "mtllib") return take_name([this](std::string_view name) { colors_.add_library(name); });
+        }
         if (is_one_of(keyword, kIgnoredData)) {
             while (!scanner_.word().empty()) {
             }
@@ -73,6 +92,28 @@ private:
         }
         if (count < 3 || count == 5) return failed(fmt::format("a vertex of {} numbers; expected x y z", count));
         builder_.add_vertex({numbers[0], numbers[1], numbers[2]});
+        if (wants_colors_ && count >= 6) {
+            colors_.set_vertex_color(builder_.vertex_count() - 1, {numbers[3], numbers[4], numbers[5]});
+        }
+        return true;
+    }
+
+    // u, v and perhaps w; what is wrong with them is a fault of the colours, not of the shape.
+    bool parse_texcoord() {
+        std::array<double, 2> numbers{};
+        bool ok = true;
+        std::size_t count = 0;
+        for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word(), ++count) {
+            if (count < numbers.size()) ok = ok && read_number(word, numbers[count]) == nullptr;
+        }
+        colors_.add_texcoord({numbers[0], numbers[1]}, ok && count > 0, scanner_.line());
+        return true;
+    }
+
+    // The rest of the line; names have blanks in them.
+    template <class Take>
+    bool take_name(Take take) {
+        take(scanner_.rest_of_line());
         return true;
     }
 
@@ -87,6 +128,7 @@ private:
                 "a face of {} corners; it needs at least three: remove it or export the mesh again", corners));
         }
         builder_.end_face();
+        if (wants_colors_) colors_.end_face();
         return true;
     }
 
@@ -107,6 +149,14 @@ private:
             highest_ = {static_cast<std::uint64_t>(vertex), scanner_.line()};
         }
         builder_.add_corner(static_cast<std::uint32_t>(vertex - 1));
+        if (wants_colors_) {
+            std::int64_t texcoord = 0;
+            if (slash != std::string_view::npos) {
+                const std::string_view rest = word.substr(slash + 1);
+                read_number(rest.substr(0, rest.find('/')), texcoord);
+            }
+            colors_.add_corner(texcoord);
+        }
         return true;
     }
 
@@ -134,6 +184,8 @@ private:
     TextScanner scanner_;
     std::string_view source_;
     MeshBuilder builder_;
+    bool wants_colors_;
+    ObjColors colors_;
     struct {
         std::uint64_t vertex = 0;
         std::size_t line = 0;
@@ -143,11 +195,18 @@ private:
 
 }  // namespace
 
-Expected<Mesh> parse_obj(std::string_view bytes, std::string_view source) {
+Expected<ParsedModel> parse_colored_obj(std::string_view bytes, std::string_view source, Wanted wanted,
+                                        const SideFiles& side_files) {
     if (auto ok = check_size(bytes, source); !ok) return tl::unexpected(std::move(ok.error()));
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
-    return Parser(bytes, source).parse();
+    return Parser(bytes, source, wanted).parse(side_files);
+}
+
+Expected<Mesh> parse_obj(std::string_view bytes, std::string_view source) {
+    auto parsed = parse_colored_obj(bytes, source, Wanted::Shape, SideFiles());
+    if (!parsed) return tl::unexpected(std::move(parsed.error()));
+    return std::move(parsed->mesh);
 }
 
 }  // namespace xorvox::io

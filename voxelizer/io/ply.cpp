@@ -4,13 +4,17 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <glm/vector_relational.hpp>
 
+#include "voxelizer/io/corner_colors.h"
 #include "voxelizer/io/formats.h"
 #include "voxelizer/io/load.h"
 #include "voxelizer/io/mesh_builder.h"
 #include "voxelizer/io/mesh_file.h"
+#include "voxelizer/io/parsed_model.h"
 #include "voxelizer/io/ply_header.h"
 #include "voxelizer/io/text_scanner.h"
 
@@ -164,15 +168,27 @@ private:
 template <class Values>
 class BodyParser {
 public:
-    BodyParser(std::string_view bytes, const PlyHeader& header, std::string_view source)
-        : header_(header), source_(source), values_(bytes, header) {}
+    BodyParser(std::string_view bytes, const PlyHeader& header, std::string_view source, Wanted wanted)
+        : header_(header),
+          source_(source),
+          values_(bytes, header),
+          wants_colors_(header.has_colors && wanted == Wanted::ShapeAndColors) {}
 
-    Expected<Mesh> parse() && {
+    Expected<ParsedModel> parse() && {
         for (const PlyElement& element : header_.elements) {
             if (!parse_element(element)) return fail(std::move(error_));
         }
         if (!values_.at_end()) return fail(fmt::format("{}: {}: {}", source_, values_.where(), values_.wrong()));
-        return std::move(builder_).finish(source_);
+        auto mesh = std::move(builder_).finish(source_);
+        if (!mesh) return tl::unexpected(std::move(mesh.error()));
+        ParsedModel parsed;
+        parsed.mesh = std::move(*mesh);
+        parsed.colors_fault = std::move(colors_fault_);
+        if (wants_colors_) {
+            parsed.colors.corner_colors.reserve(parsed.mesh.indices.size());
+            for (const std::uint32_t v : parsed.mesh.indices) parsed.colors.corner_colors.push_back(colors_[v]);
+        }
+        return parsed;
     }
 
 private:
@@ -201,18 +217,39 @@ private:
     bool parse_entry(const PlyElement& element) {
         if (!values_.begin_entry()) return false;
         glm::dvec3 position{0.0};
+        glm::dvec3 color{1.0};
         for (const PlyProperty& property : element.properties) {
-            if (!parse_value(property, position)) return false;
+            if (!parse_value(property, position, color)) return false;
         }
-        if (element.name == "vertex") builder_.add_vertex(position);
+        if (element.name == "vertex") {
+            builder_.add_vertex(position);
+            if (wants_colors_) add_color(color);
+        }
         return values_.end_entry();
     }
 
-    bool parse_value(const PlyProperty& property, glm::dvec3& position) {
+    void add_color(const glm::dvec3& color) {
+        if (glm::all(glm::greaterThanEqual(color, glm::dvec3(0.0))) &&
+            glm::all(glm::lessThanEqual(color, glm::dvec3(1.0)))) {
+            colors_.push_back(linear_color(color));
+            return;
+        }
+        wants_colors_ = false;
+        colors_ = {};
+        colors_fault_ = fmt::format(
+            "{}: {}: entry {} of element 'vertex' has a colour beyond the range of its type (0 … 1 for float); export "
+            "the mesh again",
+            source_, values_.where(), entry_);
+    }
+
+    bool parse_value(const PlyProperty& property, glm::dvec3& position, glm::dvec3& color) {
         switch (property.role) {
             case PlyRole::X: return values_.number(property.type, position.x);
             case PlyRole::Y: return values_.number(property.type, position.y);
             case PlyRole::Z: return values_.number(property.type, position.z);
+            case PlyRole::Red: return parse_color(property, color.r);
+            case PlyRole::Green: return parse_color(property, color.g);
+            case PlyRole::Blue: return parse_color(property, color.b);
             case PlyRole::Corners: return parse_face(property);
             case PlyRole::Skipped: break;
         }
@@ -221,6 +258,13 @@ private:
         if (!values_.integer(property.count_type, length)) return false;
         if (length < 0) return wrong(fmt::format("a list of {} values", length));
         return values_.skip(property.type, static_cast<std::uint64_t>(length));
+    }
+
+    bool parse_color(const PlyProperty& property, double& value) {
+        if (!wants_colors_) return values_.skip(property.type, 1);
+        if (!values_.number(property.type, value)) return false;
+        if (is_integer(property.type)) value /= property.type == PlyType::Uint16 ? 65535.0 : 255.0;
+        return true;
     }
 
     bool parse_face(const PlyProperty& property) {
@@ -254,6 +298,9 @@ private:
     std::string_view source_;
     Values values_;
     MeshBuilder builder_;
+    bool wants_colors_;
+    std::vector<glm::vec3> colors_;  // One a vertex, linear light.
+    std::string colors_fault_;
     std::uint64_t entry_ = 0;
     std::string wrong_;
     std::string error_;
@@ -261,12 +308,18 @@ private:
 
 }  // namespace
 
-Expected<Mesh> parse_ply(std::string_view bytes, std::string_view source) {
+Expected<ParsedModel> parse_colored_ply(std::string_view bytes, std::string_view source, Wanted wanted) {
     if (auto ok = check_size(bytes, source); !ok) return tl::unexpected(std::move(ok.error()));
     auto header = parse_ply_header(bytes, source);
     if (!header) return tl::unexpected(std::move(header.error()));
-    if (header->encoding == PlyEncoding::Ascii) return BodyParser<TextValues>(bytes, *header, source).parse();
-    return BodyParser<BinaryValues>(bytes, *header, source).parse();
+    if (header->encoding == PlyEncoding::Ascii) return BodyParser<TextValues>(bytes, *header, source, wanted).parse();
+    return BodyParser<BinaryValues>(bytes, *header, source, wanted).parse();
+}
+
+Expected<Mesh> parse_ply(std::string_view bytes, std::string_view source) {
+    auto parsed = parse_colored_ply(bytes, source, Wanted::Shape);
+    if (!parsed) return tl::unexpected(std::move(parsed.error()));
+    return std::move(parsed->mesh);
 }
 
 }  // namespace xorvox::io

@@ -30,10 +30,17 @@ PlyRole role_of(std::string_view element, std::string_view property) {
         if (property == "x") return PlyRole::X;
         if (property == "y") return PlyRole::Y;
         if (property == "z") return PlyRole::Z;
+        if (property == "red") return PlyRole::Red;
+        if (property == "green") return PlyRole::Green;
+        if (property == "blue") return PlyRole::Blue;
     } else if (element == "face" && (property == "vertex_indices" || property == "vertex_index")) {
         return PlyRole::Corners;
     }
     return PlyRole::Skipped;
+}
+
+bool is_color(PlyRole role) {
+    return role == PlyRole::Red || role == PlyRole::Green || role == PlyRole::Blue;
 }
 
 bool has_role(const PlyElement& element, PlyRole role) {
@@ -127,6 +134,10 @@ private:
         if (name.empty()) return failed("a property without a name");
         PlyElement& element = header_.elements.back();
         property.role = role_of(element.name, name);
+        // A colour that is no plain one is as good as none.
+        if (is_color(property.role) && (property.is_list || has_role(element, property.role))) {
+            property.role = PlyRole::Skipped;
+        }
         if (property.role != PlyRole::Skipped) {
             if (has_role(element, property.role))
                 return failed(fmt::format("a second property {}; expected one", quoted(name)));
@@ -163,6 +174,8 @@ private:
                 "no element 'face' with a list vertex_indices; export the mesh as polygons, not as points or strips");
         }
         header_.vertex_count = vertex->count;
+        header_.has_colors =
+            has_role(*vertex, PlyRole::Red) && has_role(*vertex, PlyRole::Green) && has_role(*vertex, PlyRole::Blue);
         return true;
     }
 

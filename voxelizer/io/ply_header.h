@@ -31,7 +31,7 @@ constexpr bool is_integer(PlyType type) {
 }
 
 /// What a property means to us.
-enum class PlyRole : std::uint8_t { Skipped, X, Y, Z, Corners };
+enum class PlyRole : std::uint8_t { Skipped, X, Y, Z, Red, Green, Blue, Corners };
 
 struct PlyProperty {
     PlyRole role = PlyRole::Skipped;
@@ -50,6 +50,7 @@ struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::Ascii;
     std::vector<PlyElement> elements;
     std::uint64_t vertex_count = 0;
+    bool has_colors = false;      ///< Vertices have all of Red, Green and Blue.
     std::size_t data_offset = 0;  ///< The first byte after the header.
     std::size_t data_line = 0;    ///< Its line, counted from 1.
 };

@@ -8,10 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "voxelizer/io/file_bytes.h"
 #include "voxelizer/io/file_name.h"
+#include "voxelizer/io/image_file.h"
 #include "voxelizer/io/load.h"
 #include "voxelizer/io/png_picture.h"
+#include "voxelizer/io/read_file.h"
 #include "voxelizer/io/volume_reader.h"
 #include "voxelizer/io/voxel_numbers.h"
 
@@ -161,12 +162,13 @@ Expected<std::vector<std::string>> stack_paths(const std::string& path) {
 }
 
 Expected<VolumeSequence> read_png_stack(const std::string& path) {
+    constexpr FileKind kPicture{"a picture", kMaxImageFileBytes, "make it smaller"};
     const auto paths = stack_paths(path);
     if (!paths) return tl::unexpected(paths.error());
     Stack stack(printable_name(path));
     for (const std::string& picture_path : *paths) {
         const std::string name = printable_name(picture_path);
-        const auto bytes = read_file_bytes(picture_path, name, kMaxVolumeFileBytes, "a picture");
+        const auto bytes = read_file(picture_path, name, kPicture);
         if (!bytes) return tl::unexpected(bytes.error());
         auto picture = parse_png(*bytes, name);
         if (!picture) return tl::unexpected(std::move(picture.error()));

@@ -38,12 +38,17 @@ public:
 struct Scene {
     Mesh mesh;  ///< At rest: what the file shows when nothing moves. Scaled and turned by the options.
     SurfaceColors colors;
-    std::shared_ptr<const SceneMotion>
-        motion;  ///< Null: the file has no animation. Positions are scaled and turned too.
+    /// Why `colors` are empty although the file has some: an image or a material file that is missing, damaged or too
+    /// large. Who shows the colours should refuse with it; the shape is whole. Empty: no fault.
+    std::string colors_fault;
+    /// Null: the file has no animation that is read. Positions are scaled and turned too.
+    std::shared_ptr<const SceneMotion> motion;
+    /// What the file has and this does not show, each a line for a person: "2 skins: the mesh stays in its rest pose".
+    std::vector<std::string> notes;
 };
 
 /// Reads the model file at `path`: what read_mesh() does, with colours and animations. Vertices at the same place are
-/// welded, but for those that may part when the scene moves.
+/// welded, but for those that may part when the scene moves. Errors are those of read_mesh().
 Expected<Scene> read_scene(const std::string& path, const MeshReadOptions& options = {});
 
 }  // namespace xorvox::io

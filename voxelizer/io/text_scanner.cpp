@@ -72,6 +72,15 @@ void TextScanner::skip_line() {
     at_ = std::find(at_, end_, '\n');
 }
 
+std::string_view TextScanner::rest_of_line() {
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+    const char* const begin = at_;
+    skip_line();
+    const char* last = at_;
+    while (last != begin && is_blank(last[-1])) --last;
+    return {begin, static_cast<std::size_t>(last - begin)};
+}
+
 const char* read_number(std::string_view word, double& value) {
     double number = 0;
     const auto result = read_whole(word, number);

@@ -27,6 +27,9 @@ public:
     /// Moves to the end of this line, whatever it says; a backslash does not continue it.
     void skip_line();
 
+    /// What is left of this line, without the blanks around it; moves to its end.
+    std::string_view rest_of_line();
+
     std::size_t line() const { return line_; }
     std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 

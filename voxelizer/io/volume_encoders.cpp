@@ -30,7 +30,7 @@ public:
     Expected<void> begin(VolumeSink& sink) override {
         const glm::dvec3 centre = sample_position(lattice_, 0, 0, 0);
         const glm::dvec3 pitch = lattice_.pitch;
-        return sink.write(
+        return sink.write_plain(
             fmt::format("NRRD0004\n"
                         "type: uint8\n"
                         "dimension: 3\n"
@@ -142,9 +142,9 @@ public:
         : lattice_(lattice), side_(std::max({lattice.nx, lattice.ny, lattice.nz})) {}
 
     Expected<void> begin(VolumeSink& sink) override {
-        return sink.write(fmt::format("#binvox 1\ndim {0} {0} {0}\ntranslate {1} {2} {3}\nscale {4}\ndata\n", side_,
-                                      lattice_.origin.x, lattice_.origin.y, lattice_.origin.z,
-                                      lattice_.pitch.x * static_cast<double>(side_)));
+        return sink.write_plain(fmt::format("#binvox 1\ndim {0} {0} {0}\ntranslate {1} {2} {3}\nscale {4}\ndata\n",
+                                            side_, lattice_.origin.x, lattice_.origin.y, lattice_.origin.z,
+                                            lattice_.pitch.x * static_cast<double>(side_)));
     }
 
     Expected<void> add(VolumeSink& sink, ConstBitVolumeView slab, std::uint32_t x) override {

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "voxelizer/io/file_bytes.h"
 #include "voxelizer/io/file_name.h"
+#include "voxelizer/io/read_file.h"
 #include "voxelizer/io/text_scanner.h"
 
 namespace xorvox::io {
@@ -23,6 +23,9 @@ bool is_folder(const std::string& path) {
     return std::filesystem::is_directory(path, ignored);
 }
 
+constexpr FileKind kVolumeFile{"a volume file", kMaxVolumeFileBytes, "cut or reduce the volume"};
+constexpr FileKind kDataFile{"a data file", kMaxVolumeFileBytes, "cut or reduce the volume"};
+
 Expected<VolumeSequence> read(const std::string& path, const std::string& name) {
     const std::string extension = volume_extension_of(path);
     if (is_folder(path) || extension == ".png") return read_png_stack(path);
@@ -32,14 +35,14 @@ Expected<VolumeSequence> read(const std::string& path, const std::string& name) 
                         ".nhdr, .vox, .nii, .nii.gz and stacks of .png",
                         name, io::quoted(extension)));
     }
-    const auto bytes = read_file_bytes(path, name, kMaxVolumeFileBytes, "a volume file");
+    const auto bytes = read_file(path, name, kVolumeFile);
     if (!bytes) return tl::unexpected(bytes.error());
     if (extension == ".binvox") return parse_binvox(*bytes, name);
     if (extension == ".vox") return parse_vox(*bytes, name);
     if (extension == ".nii" || extension == ".nii.gz") return parse_nifti(*bytes, name);
     return parse_nrrd(*bytes, name, [&path](const std::string& file) {
         const std::string beside = (std::filesystem::path(path).parent_path() / file).string();
-        return read_file_bytes(beside, printable_name(beside), kMaxVolumeFileBytes, "a data file");
+        return read_file(beside, printable_name(beside), kDataFile);
     });
 }
 

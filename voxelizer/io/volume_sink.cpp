@@ -1,6 +1,7 @@
 #include "voxelizer/io/volume_sink.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -50,6 +51,7 @@ public:
         }
         return {};
     }
+    Expected<void> write_plain(std::string_view bytes) override { return file_.write(bytes); }
     Expected<void> commit() override {
         if (auto ok = pack({}, Z_FINISH); !ok) return ok;
         return file_.commit();
@@ -88,7 +90,9 @@ public:
     }
 
     Expected<void> write(std::string_view bytes) override {
-        return write_file_atomically(fmt::format("{}/{}", folder_, written_++), bytes);
+        const auto ok = write_file_atomically(fmt::format("{}/{}", folder_, written_++), bytes);
+        if (!ok) return fail(fmt::format("{}: {}", shown_, ok.error().message));
+        return {};
     }
     Expected<void> commit() override {
         for (std::size_t n = 0; n < paths_.size(); ++n) {

@@ -14,11 +14,13 @@ public:
     virtual ~VolumeSink() = default;
     /// Appends `bytes`; to a row of pictures, a whole picture. After an error, destroy the object.
     virtual Expected<void> write(std::string_view bytes) = 0;
+    /// Appends `bytes` as they are, before any write(): the header of a file whose data alone are packed.
+    virtual Expected<void> write_plain(std::string_view bytes) { return write(bytes); }
     /// Lets the file, or the pictures, appear. Call once, last; without it nothing is left behind.
     virtual Expected<void> commit() = 0;
 };
 
-/// The file `path`, by an AtomicFile; `gzip`: packed.
+/// The file `path`, by an AtomicFile; `gzip`: what write() gets is packed.
 Expected<std::unique_ptr<VolumeSink>> file_sink(const std::string& path, bool gzip);
 
 /// Pictures named after `path`: out/slice.png becomes out/slice000.png and so on, with as many digits as `count`

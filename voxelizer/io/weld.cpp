@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace xorvox::io {
@@ -22,9 +23,8 @@ std::uint64_t hash(const glm::dvec3& position) {
     return h;
 }
 
-}  // namespace
-
-void weld(Mesh& mesh) {
+// `parts` is empty or has one entry a vertex.
+void weld_within(Mesh& mesh, std::span<std::uint32_t> parts) {
     std::vector<glm::dvec3>& positions = mesh.positions;
     std::vector<std::uint32_t> number(positions.size(), kNone);  // The new number of each old vertex.
     for (const std::uint32_t index : mesh.indices) number[index] = 0;
@@ -36,10 +36,15 @@ void weld(Mesh& mesh) {
     for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
         if (number[vertex] == kNone) continue;
         const glm::dvec3 position = positions[vertex] + 0.0;  // -0 becomes 0.
-        std::size_t slot = hash(position) & mask;
-        while (table[slot] != kNone && positions[table[slot]] != position) slot = (slot + 1) & mask;
+        const auto is_same = [&](std::uint32_t other) {
+            return positions[other] == position && (parts.empty() || parts[other] == parts[vertex]);
+        };
+        const std::uint64_t part = parts.empty() ? 0 : parts[vertex];
+        std::size_t slot = (hash(position) ^ part * 0x9e37'79b9'7f4a'7c15) & mask;
+        while (table[slot] != kNone && !is_same(table[slot])) slot = (slot + 1) & mask;
         if (table[slot] == kNone) {
             positions[count] = position;
+            if (!parts.empty()) parts[count] = parts[vertex];
             table[slot] = count++;
         }
         number[vertex] = table[slot];
@@ -47,6 +52,17 @@ void weld(Mesh& mesh) {
     positions.resize(count);
     positions.shrink_to_fit();
     for (std::uint32_t& index : mesh.indices) index = number[index];
+}
+
+}  // namespace
+
+void weld(Mesh& mesh) {
+    weld_within(mesh, {});
+}
+
+void weld(Mesh& mesh, std::vector<std::uint32_t>& parts) {
+    weld_within(mesh, parts);
+    parts.resize(mesh.positions.size());
 }
 
 }  // namespace xorvox::io

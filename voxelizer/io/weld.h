@@ -1,6 +1,9 @@
 // Weld: vertices at one position become one vertex.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "voxelizer/mesh.h"
 
 namespace xorvox::io {
@@ -10,5 +13,8 @@ namespace xorvox::io {
 /// their order. Faces keep their order and corners, even when they collapse. Every index of `mesh` must be below its
 /// number of vertices, which must be below 2^32 - 1. Linear in time. Allocates; throws std::bad_alloc.
 void weld(Mesh& mesh);
+
+/// The same, but merges only vertices of one part. `parts` has one entry a vertex, before and after.
+void weld(Mesh& mesh, std::vector<std::uint32_t>& parts);
 
 }  // namespace xorvox::io

@@ -15,10 +15,14 @@
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <sys/socket.h>
 
 #include "driver/display/toml.h"
 #include "driver/host/calibration.h"
+#include "driver/host/frame_client.h"
 #include "driver/host/framebuffer.h"
 #include "driver/host/power_budget.h"
 #include "driver/host/slices.h"
@@ -87,6 +91,27 @@ TEST_CASE("framebuffer: frames that come and go allocate nothing") {
     const std::size_t after = allocations;
     CHECK(after == before);
     CHECK(frames.latest().sequence == 10);
+}
+
+TEST_CASE("shared frames: what a program publishes is taken without an allocation") {
+    const DisplayDescription display = load_display("cube8-595").value();
+    host::Framebuffer frames(frame_bytes(display));
+    host::ShareStatistics statistics;
+    int ends[2];
+    REQUIRE(::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) == 0);
+    host::FrameClient client(host::Descriptor{ends[0]}, std::move(*host::FrameSegment::make(display)),
+                             host::FrameTerms(display), frames, statistics);
+    const host::Descriptor drawer(ends[1]);
+    const std::size_t before = allocations;
+    for (std::uint32_t i = 0; i < 10; ++i) {
+        client.segment().header()->latest = i % 3;
+        (void)::send(drawer.get(), "", 1, 0);  // Refused.
+        client.poll();
+    }
+    const std::size_t after = allocations;
+    CHECK(after == before);
+    CHECK(statistics.by_exchange == 10);
+    CHECK(statistics.refused[XORVOX_FRAMES_WRONG_MESSAGE] == 10);
 }
 
 #endif

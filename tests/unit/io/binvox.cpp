@@ -43,7 +43,8 @@ TEST_CASE("binvox 2: the values are labels") {
 }
 
 TEST_CASE("binvox: line ends of Windows, comments, sides that differ and a newline at the end are taken") {
-    const SampledVolume volume = only("#binvox 1\r\n# made by hand\r\ndim 1 3 2\r\ndata\r\n" + std::string("\1\6\n", 3));
+    const SampledVolume volume =
+        only("#binvox 1\r\n# made by hand\r\ndim 1 3 2\r\ndata\r\n" + std::string("\1\6\n", 3));
     CHECK(volume.nx == 1);
     CHECK(volume.ny == 2);
     CHECK(volume.nz == 3);

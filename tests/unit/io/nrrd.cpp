@@ -128,7 +128,8 @@ TEST_CASE("nrrd: data beside a detached header are read, no other files") {
     CHECK_THAT(io::read_volumes(folder / "b.nhdr").error().message, contains("b.raw") && contains("No such file"));
     for (const std::string name : {"/etc/passwd", "../a.raw", "..", "LIST", "a%d.raw 1 2 1", "b/a.raw"}) {
         put(folder / "c.nhdr", nrrd("uint8", "raw", "data file: " + name + "\n"));
-        CHECK_THAT(io::read_volumes(folder / "c.nhdr").error().message, contains("data file") && contains("own folder"));
+        CHECK_THAT(io::read_volumes(folder / "c.nhdr").error().message,
+                   contains("data file") && contains("own folder"));
     }
 }
 
@@ -168,6 +169,8 @@ TEST_CASE("nrrd: sizes are not believed before the bytes are there") {
     CHECK_THAT(refusal(kParse, head + "sizes: 1024 1024 1024\nencoding: gzip\n\nabc"), contains("cannot hold"));
     CHECK_THAT(refusal(kParse, head + "sizes: 99999 2 2\nencoding: raw\n\nabc"), contains("99999 × 2 × 2"));
     CHECK_THAT(refusal(kParse, head + "sizes: 2 2 99999999999999999999\nencoding: raw\n\nabc"), contains("sizes"));
+    CHECK_THAT(refusal(kParse, nrrd("uint8", "gzip") + gzip(kBytes.substr(1))), contains("hold 11 bytes"));
+    CHECK_THAT(refusal(kParse, nrrd("uint8", "gzip") + gzip("")), contains("hold 0 bytes"));
     // A bomb: much more than the header tells.
     const std::string bomb = gzip(std::string(10'000'000, '\0'));
     CHECK_THAT(refusal(kParse, nrrd("uint8", "gzip") + bomb), contains("hold more bytes") && contains("12"));

@@ -77,8 +77,8 @@ inline std::string vox_transform(std::uint32_t node, std::uint32_t child, const 
                              raw<std::uint32_t>(1) + vox_dictionary(frame));
 }
 inline std::string vox_group(std::uint32_t node, const std::vector<std::uint32_t>& children) {
-    return chunk("nGRP", raw(node) + vox_dictionary({}) + raw(static_cast<std::uint32_t>(children.size())) +
-                             raw_all(children));
+    return chunk("nGRP",
+                 raw(node) + vox_dictionary({}) + raw(static_cast<std::uint32_t>(children.size())) + raw_all(children));
 }
 inline std::string vox_shape(std::uint32_t node, const std::vector<std::uint32_t>& models) {
     std::string bytes = raw(node) + vox_dictionary({}) + raw(static_cast<std::uint32_t>(models.size()));

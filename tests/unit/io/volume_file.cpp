@@ -233,10 +233,10 @@ TEST_CASE("volumes are refused with a reason and no file") {
     const TempFolder folder;
     const Lattice lattice = grid(2, 2, 2);
     const BitVolume volume(lattice);
-    CHECK_THAT(refusal(folder / "a.vox", volume, lattice),
-               contains("a.vox: ") && contains("'.vox'") && contains(".nrrd, .binvox or .bits"));
+    CHECK_THAT(refusal(folder / "a.vdb", volume, lattice),
+               contains("a.vdb: ") && contains("'.vdb'") && contains(".nrrd, .binvox, ") && contains(".png or .bits"));
     CHECK_THAT(refusal(folder / "a.d/nrrd", volume, lattice), contains("''"));
-    CHECK_FALSE(io::check_volume_path("a.vox"));
+    CHECK_FALSE(io::check_volume_path("a.vdb"));
     CHECK(io::check_volume_path("a.NRRD"));
     CHECK(io::check_volume_path("a.b/.c.nrrd"));
     for (const std::string name : {".nrrd", ".NRRD", ".bits", "./.binvox"}) {

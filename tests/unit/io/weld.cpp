@@ -65,3 +65,12 @@ TEST_CASE("weld agrees with an ordered map on random vertices") {
     }
     CHECK(same);
 }
+
+TEST_CASE("weld merges vertices of one part only, when there are parts") {
+    Mesh mesh = mesh_of({{1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0, 0}}, {0, 1, 2, 4, 1, 0});
+    std::vector<std::uint32_t> parts{0, 7, 0, 0, 7};
+    io::weld(mesh, parts);
+    CHECK(mesh.positions == std::vector<glm::dvec3>{{1, 0, 0}, {1, 0, 0}});
+    CHECK(parts == List{0, 7});
+    CHECK(mesh.indices == List{0, 1, 0, 1, 1, 0});
+}

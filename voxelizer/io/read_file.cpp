@@ -1,6 +1,7 @@
-#include "voxelizer/io/file_bytes.h"
+#include "voxelizer/io/read_file.h"
 
 #include <cerrno>
+#include <cstddef>
 #include <system_error>
 
 #include <fcntl.h>
@@ -10,6 +11,15 @@
 
 namespace xorvox::io {
 namespace {
+
+std::string last_error() {
+    return std::system_category().message(errno);
+}
+
+tl::unexpected<Error> too_long(const std::string& name, const FileKind& kind) {
+    return fail(
+        fmt::format("{}: longer than {} bytes, the most that is read; {}", name, kind.most_bytes, kind.shorten));
+}
 
 class Descriptor {
 public:
@@ -25,28 +35,22 @@ private:
     int number_;
 };
 
-std::string last_error() {
-    return std::system_category().message(errno);
-}
-
 }  // namespace
 
-Expected<std::string> read_file_bytes(const std::string& path, const std::string& name, std::uint64_t most,
-                                      const std::string& what) {
-    const auto too_long = [&] {
-        return fail(fmt::format("{}: longer than {} bytes, the most that is read of {}", name, most, what));
-    };
+Expected<std::string> read_file(const std::string& path, const std::string& name, const FileKind& kind) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat info {};
     if (file.number() < 0 || ::fstat(file.number(), &info) != 0) {
         return fail(fmt::format("{}: cannot be read: {}; check the name and the permissions", name, last_error()));
     }
-    if (S_ISDIR(info.st_mode)) return fail(fmt::format("{}: is a directory; name {} in it", name, what));
+    if (S_ISDIR(info.st_mode)) {
+        return fail(fmt::format("{}: is a directory; name {} in it", name, kind.noun));
+    }
     if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode)) {
-        return fail(fmt::format("{}: is neither a file nor a pipe; name {}", name, what));
+        return fail(fmt::format("{}: is neither a file nor a pipe; name {}", name, kind.noun));
     }
     const auto announced = static_cast<std::uint64_t>(info.st_size);
-    if (announced > most) return too_long();
+    if (announced > kind.most_bytes) return too_long(name, kind);
 
     // One byte more than announced, so that the end of a regular file is seen without growing.
     constexpr std::size_t kPipeBytes = std::size_t{1} << 16;
@@ -58,7 +62,7 @@ Expected<std::string> read_file_bytes(const std::string& path, const std::string
         if (got < 0) return fail(fmt::format("{}: byte {}: cannot be read: {}", name, size, last_error()));
         if (got == 0) break;
         size += static_cast<std::size_t>(got);
-        if (size > most) return too_long();
+        if (size > kind.most_bytes) return too_long(name, kind);
         if (size == bytes.size()) bytes.resize(2 * size);
     }
     if (size == 0) return fail(fmt::format("{}: byte 0: the file is empty; write it again", name));

@@ -1,0 +1,27 @@
+// Descriptor: owns a file descriptor.
+#pragma once
+
+#include <utility>
+
+#include <unistd.h>
+
+namespace xorvox::host {
+
+class Descriptor {
+public:
+    explicit Descriptor(int number = -1) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    int get() const { return number_; }
+
+private:
+    int number_;
+};
+
+}  // namespace xorvox::host
