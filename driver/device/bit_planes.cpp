@@ -218,13 +218,6 @@ void split_rest(const std::byte* pixels, std::uint32_t columns, const PlanePlace
 template <unsigned Bits>
 void split_row(const std::byte* pixels, std::uint32_t columns, const PlanePlaces& places) {
     std::size_t at = 0;
-    if constexpr (Bits == 1) {
-        // It is its plane already.
-        at = columns / 8;
-        std::memcpy(places[0], pixels, at);
-        pixels += at;
-        columns %= 8;
-    }
     for (; columns >= kBlock; columns -= kBlock, at += kBlockPlaneBytes) {
         split_block<Bits>(pixels, places, at);
         pixels += std::size_t{kBlock} * Bits / 8;
@@ -246,6 +239,10 @@ Status split_bit_planes(const BitPlaneLayout& layout, std::span<const std::byte>
     if (bits_per_pixel(layout.format) == 0 || layout.columns < 1 || layout.shown < 1 || layout.shown > 8 ||
         pixels.size() < layout.pixel_bytes() || planes.size() < layout.bytes()) {
         return Status::InvalidArgument;
+    }
+    if (layout.format == PixelFormat::Mono1 && layout.columns % 8 == 0) {
+        std::memcpy(planes.data(), pixels.data(), layout.bytes());  // A plane already.
+        return Status::Ok;
     }
     PlanePlaces places{};
     const std::array<std::uint8_t, 3> bits = channel_bits(layout.format);
