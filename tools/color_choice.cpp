@@ -57,10 +57,10 @@ Expected<ColorChoice> choose_texture(std::string_view arguments) {
         return fail(fmt::format("texture: {} has colours of its own; leave out those behind its name",
                                 io::printable_name(chosen->file)));
     }
-    const std::vector<glm::dvec3> blue_to_gold{host::linear_from_hex(0x2060ff), host::linear_from_hex(0x30c070),
-                                               host::linear_from_hex(0xffd400)};
-    return std::make_unique<host::TextureColor>(*volume, host::stretched(**volume),
-                                                chosen->colors.empty() ? blue_to_gold : chosen->colors);
+    const auto rising = host::rising_colors();
+    return std::make_unique<host::TextureColor>(
+        *volume, host::stretched(**volume),
+        chosen->colors.empty() ? std::span<const glm::dvec3>(rising) : chosen->colors);
 }
 
 Expected<ColorChoice> choose_labels(std::string_view arguments) {

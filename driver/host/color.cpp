@@ -122,11 +122,8 @@ Expected<std::unique_ptr<ColorField>> make_constant(std::string_view color) {
 }
 
 std::unique_ptr<ColorField> make_default_gradient() {
-    // Lightness rises with height, as if lit from above. Where red begins to count, blue has ceased to: so the order
-    // survives formats with two bits of blue, or one.
-    const std::array stops = {linear_from_hex(0x205cff), linear_from_hex(0x00e0ff), linear_from_hex(0x4ae258),
-                              linear_from_hex(0xd0e030), linear_from_hex(0xffd400)};
-    return std::make_unique<Gradient>(stops);
+    // Lightness rises with height, as if lit from above.
+    return std::make_unique<Gradient>(rising_colors());
 }
 
 /// A field of a ramp through the colours that are listed.

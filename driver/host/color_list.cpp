@@ -30,6 +30,11 @@ constexpr Name kNames[] = {
 
 }  // namespace
 
+std::array<glm::dvec3, 5> rising_colors() {
+    return {linear_from_hex(0x205cff), linear_from_hex(0x00e0ff), linear_from_hex(0x4ae258), linear_from_hex(0xd0e030),
+            linear_from_hex(0xffd400)};
+}
+
 Expected<glm::dvec3> parse_color_name(std::string_view text) {
     if (text.starts_with('#')) {
         std::uint32_t rrggbb = 0;

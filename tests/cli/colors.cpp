@@ -3,6 +3,7 @@
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"
+#include "tests/unit/io/glb.h"
 
 using namespace xorvox::test;
 using Catch::Matchers::Contains;
@@ -26,6 +27,34 @@ std::string refusal(const std::string& color) {
 }
 
 }  // namespace
+
+TEST_CASE("a model is shown in its own colours where it has any, else in a gradient", "[cli]") {
+    const Folder folder;
+    const std::string red = folder.file("red.glb", moving_corner_glb());
+    const auto sent = [&](const std::string& model, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"show",          model,  "--display",
+                                           "cube16-ws2812", "--to", "file:" + folder.path("out.packets")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        succeeds(arguments);
+        return read_file(folder.path("out.packets"));
+    };
+    CHECK(sent(red, {}) == sent(red, {"--color", "constant:red"}));
+    CHECK(sent(red, {"--color", "own"}) == sent(red, {"--color", "constant:red"}));
+    CHECK(sent(kDuck, {}) == sent(kDuck, {"--color", "gradient"}));
+    const Outcome none = run_program({"show", kDuck, "--display", "cube16-ws2812", "--color", "own"});
+    CHECK(none.status == 2);
+    CHECK_THAT(none.err, Catch::Contains("duck.ply has no colours of its own"));
+}
+
+TEST_CASE("colours of a model that lack their picture are refused, and its shape can be shown", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.file("a.obj", "mtllib a.mtl\nusemtl m\n" + cube_obj(10));
+    folder.file("a.mtl", "newmtl m\nmap_Kd gone.png\n");
+    const Outcome missing = run_program({"show", model, "--display", "cube16-ws2812"});
+    CHECK(missing.status == 2);
+    CHECK_THAT(missing.err, Catch::Contains("gone.png") && Catch::Contains("--color gradient shows the shape alone"));
+    succeeds({"show", model, "--display", "cube16-ws2812", "--color", "gradient"});
+}
 
 TEST_CASE("show takes every kind of colour of docs/color.md", "[cli]") {
     const double lit = number(show("constant:white").out, "voxels_lit");

@@ -5,6 +5,7 @@
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"
+#include "tests/unit/io/glb.h"
 
 using namespace xorvox::test;
 
@@ -102,6 +103,44 @@ TEST_CASE("files that follow each other are shown in turn, in one scale", "[cli]
     CHECK(inside("0.3") == shown_low);  // The sequence begins anew.
     const std::string json = succeeds({"play", low, high, "--display", "cube16-ws2812", "--fps", "10", "--json"}).out;
     CHECK(number(json, "frames_presented") == Approx(12).margin(1));
+}
+
+TEST_CASE("an animation of a file plays once, in its own time, and stays within the display", "[cli]") {
+    const Folder folder;
+    const std::string model = folder.file("slide.glb", moving_corner_glb());
+    const auto play = [&](const std::vector<std::string>& more) {
+        return succeeds(with({"play", model, "--display", "cube16-ws2812", "--json"}, more)).out;
+    };
+    const std::string whole = play({});
+    CHECK(number(whole, "frames_presented") == Approx(120).margin(2));
+    CHECK(number(whole, "inside") > 0);
+    CHECK(play({"--animation", "slide"}) == whole);
+    CHECK(play({"--animation", "0"}) == whole);
+    // It is in the display at its beginning, too: both ends of its way fit.
+    CHECK(number(play({"--seconds", "0.02"}), "inside") > 0);
+    const Outcome unknown = run_program({"play", model, "--display", "cube16-ws2812", "--animation", "walk"});
+    CHECK(unknown.status == 2);
+    CHECK_THAT(unknown.err, Catch::Contains("slide.glb has no \"walk\"; it has 0 slide"));
+}
+
+TEST_CASE("volumes that follow each other are shown in turn", "[cli]") {
+    const Folder folder;
+    const std::string low = folder.path("low.nrrd");
+    const std::string high = folder.path("high.nrrd");
+    succeeds({"voxelize", folder.file("low.obj", box_obj(5)), "--grid", "12,12,12", "--origin", "-1,-1,-1", "--pitch",
+              "1", "-o", low});
+    succeeds({"voxelize", folder.file("high.obj", box_obj(10)), "--grid", "12,12,12", "--origin", "-1,-1,-1", "--pitch",
+              "1", "-o", high});
+    const auto inside = [&](const std::string& seconds) {
+        return number(
+            succeeds({"play", low, high, "--display", "cube16-ws2812", "--fps", "10", "--seconds", seconds, "--json"})
+                .out,
+            "inside");
+    };
+    CHECK(inside("0.2") == Approx(2 * inside("0.1")).epsilon(0.15));
+    const Outcome mixed = run_program({"play", low, kDuck, "--display", "cube16-ws2812"});
+    CHECK(mixed.status == 2);
+    CHECK_THAT(mixed.err, Catch::Contains("a sequence has one kind"));
 }
 
 TEST_CASE("what cannot be played is refused with what to do", "[cli]") {

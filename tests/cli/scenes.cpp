@@ -13,24 +13,11 @@ namespace {
 
 const std::string kModels = "/usr/share/assimp/models/";
 
-// The corner of glb.h, which moves along x for 2 seconds, and has a colour.
-std::string moving_corner() {
-    const std::string binary = corner_binary() + floats({0, 2}) + floats({0, 0, 0, 5, 0, 0});
-    return glb(corner_json("'nodes':[{'mesh':0}],'materials':[{'pbrMetallicRoughness':{'baseColorFactor':[1,0,0,1]}}],"
-                           "'animations':[{'name':'slide','channels':[{'sampler':0,'target':{'node':0,'path':"
-                           "'translation'}}],'samplers':[{'input':2,'output':3}]}]",
-                           ",{'buffer':0,'byteOffset':72,'byteLength':8},{'buffer':0,'byteOffset':80,'byteLength':24}",
-                           ",{'bufferView':2,'componentType':5126,'count':2,'type':'SCALAR'},"
-                           "{'bufferView':3,'componentType':5126,'count':2,'type':'VEC3'}",
-                           104, "'attributes':{'POSITION':0},'indices':1,'material':0"),
-               binary);
-}
-
 }  // namespace
 
 TEST_CASE("info tells colours and animations of a glTF", "[cli]") {
     const Folder folder;
-    const std::string model = folder.file("a.glb", moving_corner());
+    const std::string model = folder.file("a.glb", moving_corner_glb());
     const Outcome text = succeeds({"info", model});
     CHECK_THAT(text.out, Catch::Contains("colours             1 material\n") &&
                              Catch::Contains("animation           slide, 2 s\n") &&
@@ -43,7 +30,7 @@ TEST_CASE("info tells colours and animations of a glTF", "[cli]") {
 
 TEST_CASE("a glTF is voxelized upright", "[cli]") {
     const Folder folder;
-    const std::string model = folder.file("a.glb", moving_corner());
+    const std::string model = folder.file("a.glb", moving_corner_glb());
     CHECK_THAT(succeeds({"info", model}).out, Catch::Contains("box                 0, -3, 0 to 1, 0, 2"));
     CHECK_THAT(succeeds({"info", model, "--up", "z"}).out, Catch::Contains("box                 0, 0, 0 to 1, 2, 3"));
     succeeds({"voxelize", model, "--size", "16", "-o", folder.path("a.nrrd")});

@@ -61,6 +61,19 @@ inline std::string corner_json(const std::string& rest = "'nodes':[{'mesh':0}]",
                 more_accessors + "],'meshes':[{'primitives':[{" + primitive + "}]}]," + rest + "}");
 }
 
+/// The corner, red, which its animation "slide" moves along x by 5 in 2 seconds.
+inline std::string moving_corner_glb() {
+    const std::string binary = corner_binary() + floats({0, 2}) + floats({0, 0, 0, 5, 0, 0});
+    return glb(corner_json("'nodes':[{'mesh':0}],'materials':[{'pbrMetallicRoughness':{'baseColorFactor':[1,0,0,1]}}],"
+                           "'animations':[{'name':'slide','channels':[{'sampler':0,'target':{'node':0,'path':"
+                           "'translation'}}],'samplers':[{'input':2,'output':3}]}]",
+                           ",{'buffer':0,'byteOffset':72,'byteLength':8},{'buffer':0,'byteOffset':80,'byteLength':24}",
+                           ",{'bufferView':2,'componentType':5126,'count':2,'type':'SCALAR'},"
+                           "{'bufferView':3,'componentType':5126,'count':2,'type':'VEC3'}",
+                           104, "'attributes':{'POSITION':0},'indices':1,'material':0"),
+               binary);
+}
+
 inline std::string corner_glb(const std::string& rest = "'nodes':[{'mesh':0}]") {
     return glb(corner_json(rest), corner_binary());
 }
