@@ -220,7 +220,8 @@ Expected<void> bench_color(const BenchColorOptions& options) {
     Expected<MeshInput> input = read_solid(mesh_options);
     if (!input) return tl::unexpected(input.error());
     Mesh& mesh = input->mesh;
-    const auto placement = fit_to_display(mesh.positions, *display, options.mesh);
+    const auto placement =
+        fit_to_display([&mesh](const auto& visit) { visit(mesh.positions); }, *display, options.mesh);
     if (!placement) return tl::unexpected(placement.error());
     for (glm::dvec3& position : mesh.positions) position = placement->place(position);
 

@@ -49,18 +49,17 @@ MeshContent::MeshContent(std::vector<NamedScene> scenes, unsigned threads)
     : scenes_(std::move(scenes)), voxelizer_(solid_options(threads)) {}
 
 Expected<void> MeshContent::place(const DisplayDescription& display, Turning turning) {
-    std::vector<glm::dvec3> points;
-    for (const NamedScene& scene : scenes_) {
-        points.insert(points.end(), scene.scene.mesh.positions.begin(), scene.scene.mesh.positions.end());
-    }
-    if (motion_ != nullptr) {
-        const std::size_t vertices = points.size();
-        points.resize(vertices * (kMoments + 1));
-        for (std::size_t moment = 0; moment <= kMoments; ++moment) {
-            const double seconds = duration_ * static_cast<double>(moment) / kMoments;
-            motion_->positions_at(animation_, seconds, std::span(points).subspan(vertices * moment, vertices));
+    const PointSource points = [this](const auto& visit) {
+        if (motion_ == nullptr) {
+            for (const NamedScene& scene : scenes_) visit(scene.scene.mesh.positions);
+            return;
         }
-    }
+        positions_.resize(scenes_.front().scene.mesh.positions.size());
+        for (std::size_t moment = 0; moment <= kMoments; ++moment) {
+            motion_->positions_at(animation_, duration_ * static_cast<double>(moment) / kMoments, positions_);
+            visit(positions_);
+        }
+    };
     const Expected<Placement> placement = fit_to_display(points, display, scenes_.front().source, turning);
     if (!placement) return tl::unexpected(placement.error());
     placement_ = *placement;

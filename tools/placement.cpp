@@ -104,20 +104,22 @@ glm::dmat4 Placement::matrix() const {
     return glm::translate(one, middle) * glm::scale(one, glm::dvec3(scale)) * glm::translate(one, -center);
 }
 
-Expected<Placement> fit_to_display(std::span<const glm::dvec3> points, const DisplayDescription& display,
+Expected<Placement> fit_to_display(const PointSource& points, const DisplayDescription& display,
                                    const std::string& source, Turning turning) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     glm::dvec3 lower(kInfinity);
     glm::dvec3 upper(-kInfinity);
-    for (const glm::dvec3& point : points) {
-        lower = glm::min(lower, point);
-        upper = glm::max(upper, point);
-    }
+    points([&](std::span<const glm::dvec3> some) {
+        for (const glm::dvec3& point : some) {
+            lower = glm::min(lower, point);
+            upper = glm::max(upper, point);
+        }
+    });
     const DisplayExtent room = extent(display);
     const glm::dvec3 center = (lower + upper) / 2.0;
     const glm::dvec3 size = upper - lower;
     const glm::dvec3 space = room.upper - room.lower;
-    if (!points.empty() && !(std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(size.z))) {
+    if (lower.x <= upper.x && !(std::isfinite(size.x) && std::isfinite(size.y) && std::isfinite(size.z))) {
         return fail(fmt::format("{}: it is larger than numbers go; choose another --unit", source));
     }
 
@@ -127,7 +129,9 @@ Expected<Placement> fit_to_display(std::span<const glm::dvec3> points, const Dis
     };
     const auto farthest = [&](auto distance) {
         double reach = 0.0;
-        for (const glm::dvec3& point : points) reach = std::max(reach, distance(point));
+        points([&](std::span<const glm::dvec3> some) {
+            for (const glm::dvec3& point : some) reach = std::max(reach, distance(point));
+        });
         return reach;
     };
     const double radius = room.radius_mm > 0.0 ? room.radius_mm : std::min(space.x, space.y) / 2.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -42,9 +43,12 @@ struct Placement {
     glm::dmat4 matrix() const;
 };
 
-/// The placement of what has its outermost points among `points` so that it fills the display's extent, centred, its z
-/// axis up, and stays within it however it turns.
-Expected<Placement> fit_to_display(std::span<const glm::dvec3> points, const DisplayDescription& display,
+/// Shows points to its argument, some at a time.
+using PointSource = std::function<void(const std::function<void(std::span<const glm::dvec3>)>&)>;
+
+/// The placement of what has its outermost points among `points`, which are asked for twice, so that it fills the
+/// display's extent, centred, its z axis up, and stays within it however it turns.
+Expected<Placement> fit_to_display(const PointSource& points, const DisplayDescription& display,
                                    const std::string& source, Turning turning = Turning::Not);
 
 }  // namespace xorvox::tools

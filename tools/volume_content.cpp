@@ -17,7 +17,8 @@ Expected<std::unique_ptr<VolumeContent>> VolumeContent::make(std::vector<VolumeI
         const auto more = box_corners(input.sequence.frames);
         corners.insert(corners.end(), more.begin(), more.end());
     }
-    const Expected<Placement> placement = fit_to_display(corners, display, source, turning);
+    const Expected<Placement> placement =
+        fit_to_display([&corners](const auto& visit) { visit(corners); }, display, source, turning);
     if (!placement) return tl::unexpected(placement.error());
     std::unique_ptr<VolumeContent> content(new VolumeContent());
     for (VolumeInput& input : inputs) {
