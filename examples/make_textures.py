@@ -12,12 +12,12 @@ import zlib
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 
 
-def write_nrrd(name, side, channels, data):
-    header = ["NRRD0004", "type: uint8", f"dimension: {4 if channels > 1 else 3}",
+def write_nrrd(name, side, channels, data, content=None):
+    header = ["NRRD0004", *([f"content: {content}"] if content else []), "type: uint8", f"dimension: {4 if channels > 1 else 3}",
               "sizes: " + " ".join(map(str, ([channels] if channels > 1 else []) + [side] * 3)),
               "encoding: gzip"]
     if channels > 1:
-        header.insert(4, "kinds: RGB-color domain domain domain")
+        header.insert(-1, "kinds: RGB-color domain domain domain")
     with open(os.path.join(FOLDER, name), "wb") as file:
         file.write("\n".join(header).encode() + b"\n\n" + gzip.compress(bytes(data), 9, mtime=0))
 
@@ -129,6 +129,6 @@ def write_planet(name):
 
 write_nrrd("swirl.nrrd", 24, 1, [swirl(*p) for p in voxels(24)])
 write_nrrd("hues.nrrd", 12, 3, [code for p in voxels(12) for code in hues(*p)])
-write_nrrd("cells.nrrd", 24, 1, [cell(*p) for p in voxels(24)])
+write_nrrd("cells.nrrd", 24, 1, [cell(*p) for p in voxels(24)], "labels")
 write_png("globe.png", 128, 64, [[c for i in range(128) for c in globe((i + 0.5) / 128, (j + 0.5) / 64)] for j in range(64)])
 write_planet("planet.glb")

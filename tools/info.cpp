@@ -110,7 +110,7 @@ Expected<void> info(const InfoOptions& options) {
     const bool of_mesh = !options.mesh.unit.empty() || !options.mesh.up.empty();
     const bool of_volume = options.volume.threshold || options.volume.frame;
     if (is_volume ? of_mesh : of_volume) {
-        return fail(fmt::format("{} for {}, and {} is a {}; leave them away",
+        return fail(fmt::format("{} for {}, and {} is a {}; leave them out",
                                 is_volume ? "--unit and --up are" : "--threshold and --volume are",
                                 is_volume ? "meshes" : "volumes", io::printable_name(options.mesh.path),
                                 is_volume ? "volume" : "mesh"));

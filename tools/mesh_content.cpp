@@ -112,7 +112,7 @@ Expected<void> MeshContent::draw(double seconds, const glm::dmat4& pose, BitVolu
 }
 
 bool MeshContent::has_own_color() const {
-    return std::ranges::any_of(scenes_, [](const NamedScene& scene) { return has_colors(scene.scene.colors); });
+    return std::ranges::all_of(scenes_, [](const NamedScene& scene) { return has_colors(scene.scene.colors); });
 }
 
 const host::ColorField* MeshContent::own_color() {

@@ -43,6 +43,9 @@ Expected<void> show_still(const StageOptions& options) {
     fmt::print("sent to {}: {} bytes as {}\n", to.to, thousands(delivery->session.bytes_raw),
                thousands(delivery->session.bytes_sent));
     print_light(options, stage, delivery->light);
+    if (voxels > 0 && delivery->light && delivery->light->statistics.pixels_lit == 0) {
+        warn("all " + thousands(voxels) + " samples inside are dark: --color or --brightness makes them black");
+    }
     return {};
 }
 

@@ -56,16 +56,16 @@ Expected<std::size_t> choose_animation(const io::Scene& scene, const std::string
 
 Expected<std::unique_ptr<Content>> read_meshes(const StageOptions& options, const DisplayDescription& display,
                                                Turning turning) {
-    const bool wants_colors = options.color.empty() || options.color == "own";
     std::vector<NamedScene> scenes;
     MeshOptions mesh = options.mesh;
     for (const std::string& path : paths(options)) {
         mesh.path = path;
         Expected<SceneInput> input = read_solid_scene(mesh);
         if (!input) return tl::unexpected(input.error());
-        if (wants_colors && !input->scene.colors_fault.empty()) {
-            return fail(input->scene.colors_fault + " (--color gradient shows the shape alone)");
-        }
+        if (!input->scene.colors_fault.empty() && options.color == "own")
+            return fail("--color: own: " + input->scene.colors_fault);
+        if (!input->scene.colors_fault.empty() && options.color.empty())
+            warn(input->scene.colors_fault + "; it is shown in a gradient");
         scenes.push_back({std::move(input->scene), path});
     }
     const auto animation = choose_animation(scenes.front().scene, options.animation, options.mesh.path);
@@ -123,8 +123,9 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
     stage->content = std::move(*content);
     if (stage->color == nullptr && !stage->content->has_own_color()) {
         if (!options.color.empty()) {
-            return fail(
-                fmt::format("--color: own: {} has no colours of its own", io::printable_name(options.mesh.path)));
+            return fail(fmt::format(
+                "--color: own: {} has no colours of its own",
+                options.following.empty() ? io::printable_name(options.mesh.path) : std::string("one of the files")));
         }
         stage->color = std::move(*host::parse_color("gradient"));
     }

@@ -33,7 +33,7 @@ inline constexpr std::string_view kColorKinds =
 /// #rrggbb (sRGB); lists have two colours or more, mixed evenly to the eye (Oklab).
 ///
 ///   constant:COLOR          one colour
-///   gradient                azure, turquoise, green and gold, from bottom to top, in steps that keep this order in
+///   gradient                blue, turquoise, green and gold, from bottom to top, in steps that keep this order in
 ///                           every pixel format
 ///   gradient:COLOR,COLOR    from bottom to top
 ///   radial:COLOR,COLOR      by distance from the upright axis through the middle of the box: the first colour there,

@@ -14,7 +14,7 @@ namespace xorvox::host {
 /// The most colours of a list.
 inline constexpr std::size_t kMostColors = 64;
 
-/// Azure, turquoise, green, yellow and gold, ever lighter, in linear light: what a scale is shown in when no colours
+/// Blue, turquoise, green, yellow and gold, ever lighter, in linear light: what a scale is shown in when no colours
 /// are named. Where red begins to count, blue has ceased to, so that the order survives formats with two bits of blue,
 /// or one.
 std::array<glm::dvec3, 5> rising_colors();

@@ -95,7 +95,7 @@ void read_track(TomlTable& top, TrackKind kind, std::vector<Keyframe>& track, Mi
     for (std::size_t i = 0; i < list->items.size(); ++i) {
         const TomlNode& node = list->items[i];
         if (node.type != TomlNode::Type::Table) return top.wrong(node, names.track, allowed);
-        const std::string place = fmt::format("{} {}: ", names.track, i);
+        const std::string place = fmt::format("{} {}: ", names.track, i + 1);
         TomlTable table(node, place, mistakes);
         table.refuse_unknown(keys);
         if (node.find("at") == nullptr) table.note_missing("at");
@@ -204,14 +204,20 @@ Expected<std::vector<Keyframe>> parse_track(std::string_view text, TrackKind kin
             return fail(fmt::format("keyframe {}: {}", number, message));
         };
         std::string_view rest = cut(text, ";");
-        bool timed = false;
+        std::vector<std::string_view> named;
         while (!rest.empty()) {
             const std::string_view setting = cut(rest, " \t");
             if (setting.empty()) continue;
-            timed = timed || setting.starts_with("at=");
+            const std::string_view name = setting.substr(0, setting.find('='));
+            if (std::ranges::find(named, name) != named.end()) {
+                return refuse(
+                    fmt::format("{} stands in it twice; is a semicolon missing between two keyframes?", name));
+            }
+            named.push_back(name);
             if (const auto read = read_setting(setting, names, key); !read) return refuse(read.error().message);
         }
-        if (!timed) return refuse("it has no time; allowed: at=SECONDS in each, as in \"at=0; at=4 turn=0,0,360\"");
+        if (std::ranges::find(named, "at") == named.end())
+            return refuse("it has no time; allowed: at=SECONDS in each, as in \"at=0; at=4 turn=0,0,360\"");
         if (const auto wrong = find_wrong(key, track.empty() ? nullptr : &track.back(), names)) {
             return refuse(fmt::format("{}: {}", wrong->name, wrong->message));
         }

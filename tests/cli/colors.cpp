@@ -46,13 +46,29 @@ TEST_CASE("a model is shown in its own colours where it has any, else in a gradi
     CHECK_THAT(none.err, Catch::Contains("duck.ply has no colours of its own"));
 }
 
-TEST_CASE("colours of a model that lack their picture are refused, and its shape can be shown", "[cli]") {
+TEST_CASE("a row of files is shown in its own colours only if each of them has some", "[cli]") {
+    const Folder folder;
+    const std::string red = folder.file("red.glb", moving_corner_glb());
+    const std::vector<std::string> row{"play", red, kDuck, "--display", "cube16-ws2812", "--fps", "20"};
+    succeeds(row);
+    std::vector<std::string> own = row;
+    own.insert(own.end(), {"--color", "own"});
+    const Outcome refused = run_program(own);
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Catch::Contains("one of the files has no colours of its own"));
+}
+
+TEST_CASE("a model whose colours lack their picture is shown in a gradient, with a warning, and not as its own",
+          "[cli]") {
     const Folder folder;
     const std::string model = folder.file("a.obj", "mtllib a.mtl\nusemtl m\n" + cube_obj(10));
     folder.file("a.mtl", "newmtl m\nmap_Kd gone.png\n");
     const Outcome missing = run_program({"show", model, "--display", "cube16-ws2812"});
-    CHECK(missing.status == 2);
-    CHECK_THAT(missing.err, Catch::Contains("gone.png") && Catch::Contains("--color gradient shows the shape alone"));
+    CHECK(missing.status == 0);
+    CHECK_THAT(missing.err, Catch::Contains("warning") && Catch::Contains("gone.png"));
+    const Outcome own = run_program({"show", model, "--display", "cube16-ws2812", "--color", "own"});
+    CHECK(own.status == 2);
+    CHECK_THAT(own.err, Catch::Contains("gone.png"));
     succeeds({"show", model, "--display", "cube16-ws2812", "--color", "gradient"});
 }
 

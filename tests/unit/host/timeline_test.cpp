@@ -155,6 +155,7 @@ TEST_CASE("a typed track is refused by keyframe, with what is allowed") {
                "keyframe 2: it has no time; allowed: at=SECONDS in each, as in \"at=0; at=4 turn=0,0,360\"");
     is_refused(motion("at=0 move=1,2"), "keyframe 1: found \"move=1,2\"; allowed: move=X,Y,Z in millimetres");
     is_refused(motion("at=0 move=1,2,3,4"), "keyframe 1: found \"move=1,2,3,4\"; allowed: move=X,Y,Z in millimetres");
+    is_refused(motion("at=0 at=1"), "keyframe 1: at stands in it twice; is a semicolon missing between two keyframes?");
     is_refused(motion("at=0 zoom=1"), "keyframe 1: found \"zoom=1\"; allowed: at=, move=, turn=, scale= and ease=");
     is_refused(motion("at=1; at=1"),
                "keyframe 2: at: found 1 after 1; allowed: keyframes in the order of time, no two "
@@ -199,11 +200,11 @@ zoom = 2
 TEST_CASE("a timeline file is refused by line") {
     CHECK(timeline_error("loop = true") == "t.toml: nothing moves: it has neither [[motion]] nor [[camera]] keyframes");
     CHECK(timeline_error("[[motion]]\nat = 0\n[[motion]]\nat = 0\n") ==
-          "t.toml: line 4: motion 1: at: found 0 after 0; allowed: keyframes in the order of time, no two at once");
+          "t.toml: line 4: motion 2: at: found 0 after 0; allowed: keyframes in the order of time, no two at once");
     CHECK(timeline_error("[[motion]]\nmove_mm = [1, 2, 3]\n") ==
-          "t.toml: line 1: motion 0: the required key \"at\" is missing");
+          "t.toml: line 1: motion 1: the required key \"at\" is missing");
     CHECK(timeline_error("[[camera]]\nat = 0\ncenter_mm = [1, 2]\n") ==
-          "t.toml: line 3: camera 0: center_mm: found 2 numbers; allowed: three");
+          "t.toml: line 3: camera 1: center_mm: found 2 numbers; allowed: three");
     CHECK(timeline_error("seconds = 0\n[[camera]]\nat = 0\n") ==
           "t.toml: line 1: seconds: found 0; allowed: above 0, at most 1000000");
     CHECK(
@@ -211,7 +212,7 @@ TEST_CASE("a timeline file is refused by line") {
         std::string::npos);
     CHECK(timeline_error("[motion]\nat = 0\n").find("one [[motion]] table for each keyframe") != std::string::npos);
     CHECK(timeline_error("[[motion]]\nat = 0\nscale = inf\n") ==
-          "t.toml: line 3: motion 0: scale: found inf; allowed: 0.001 to 100");
+          "t.toml: line 3: motion 1: scale: found inf; allowed: 0.001 to 100");
     CHECK(timeline_error("x = 1\n").find("unknown key \"x\"") != std::string::npos);
     CHECK(timeline_error("=").find("t.toml: line 1: ") == 0);
 }
