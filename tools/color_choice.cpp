@@ -106,6 +106,7 @@ Expected<ColorChoice> choose_color(std::string_view spec) {
     } else if (kind == "gradient" || kind == "noise" || kind == "simplex") {
         return host::parse_color(spec);
     }
+    if (host::parse_color_name(spec)) return fail(fmt::format("{0} is a colour, not a kind; write constant:{0}", spec));
     return fail(fmt::format("colour \"{}\" is not understood; allowed: {}", io::printable_name(spec), color_kinds()));
 }
 

@@ -66,6 +66,7 @@ void add_stage(CLI::App& app, StageOptions& options) {
                        ". COLOR is a name as in CSS or #rrggbb, and a wrong one lists them all; own is the model's own "
                        "colours. "
                        "docs/color.md shows each kind")
+        ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, ""))
         ->type_name("KIND:ARGS");
     add_volume(app, options.volume);
     add_transfer(app, options.volume);

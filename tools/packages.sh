@@ -3,7 +3,7 @@
 packages_build="cmake ninja-build g++ pkg-config libglm-dev libexpected-dev libfmt-dev libtomlplusplus-dev libcli11-dev
     libpng-dev libjpeg62-turbo-dev zlib1g-dev libtinygltf-dev libassimp-dev liblz4-dev libhwy-dev libgl-dev libegl-dev
     libegl1 libgl1-mesa-dri libosmesa6"
-packages_test="ccache catch2 assimp-testmodels clang clang-format libclang-rt-14-dev gcc-arm-none-eabi
+packages_test="ccache catch2 assimp-testmodels python3 clang clang-format libclang-rt-14-dev gcc-arm-none-eabi
     libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm g++-aarch64-linux-gnu qemu-user zstd"
 
 # need PACKAGE …: installs what is missing, says so; changes nothing when all is there.

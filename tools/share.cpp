@@ -129,12 +129,12 @@ void report(const ShareOptions& options, const DisplayDescription& display, cons
             to.png.empty() ? "null" : json_string(to.png), lit);
         return;
     }
-    fmt::print("drawn: {} frames by {} programs, {} by message and {} by atomics; {} went on to the display\n",
-               thousands(seen.frames()), thousands(seen.clients), thousands(seen.by_message),
-               thousands(seen.by_exchange), thousands(source.handed_on()));
+    fmt::print("drawn: {} frames by {} {}, {} by message and {} by atomics; {} went on to the display\n",
+               thousands(seen.frames()), thousands(seen.clients), seen.clients == 1 ? "program" : "programs",
+               thousands(seen.by_message), thousands(seen.by_exchange), thousands(source.handed_on()));
     for (std::size_t i = 0; i < kRefusals.size(); ++i) {
         if (seen.refused[i] == 0) continue;
-        fmt::print("refused {} times: {}\n", thousands(seen.refused[i]), xorvox_frames_text(static_cast<int>(i)));
+        fmt::print("refused, {} of them: {}\n", thousands(seen.refused[i]), xorvox_frames_text(static_cast<int>(i)));
     }
     print_stream(delivery);
     if (light) {

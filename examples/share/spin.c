@@ -78,7 +78,7 @@ int main(int argc, char **argv) {
     }
     status = xorvox_frames_connect(&frames, argv[1]);
     if (status != XORVOX_FRAMES_OK) {
-        fprintf(stderr, "spin: %s: %s\n", argv[1], xorvox_frames_text(status));
+        fprintf(stderr, "spin: %s: %s (xorvox share must be running there)\n", argv[1], xorvox_frames_text(status));
         return 2;
     }
     printf("drawing on %s\n", frames.segment->display_name);

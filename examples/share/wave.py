@@ -32,7 +32,10 @@ class Display:
 
     def __init__(self, path):
         self.server = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        self.server.connect(path)
+        try:
+            self.server.connect(path)
+        except OSError as error:
+            raise OSError(f"{error.strerror}; start xorvox share first")
         message, passed, _, _ = socket.recv_fds(self.server, HELLO.size, 1)
         if len(message) != HELLO.size:
             raise OSError("no server of shared frames")

@@ -141,7 +141,7 @@ TEST_CASE("share ends upon a signal with its figures, and removes its socket", "
     CHECK(::kill(server.pid(), SIGTERM) == 0);
     std::string figures;
     while (const auto more = server.line()) figures += *more + "\n";
-    CHECK_THAT(figures, Catch::Contains("drawn: 2 frames by 1 programs") && Catch::Contains("sent: "));
+    CHECK_THAT(figures, Catch::Contains("drawn: 2 frames by 1 program,") && Catch::Contains("sent: "));
     CHECK(folder.names().empty());
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("share and its examples refuse bad input with one line", "[cli]") {
     const std::string nobody = folder.path("nobody");
     const Outcome spin = shell(kSpin + " " + nobody);
     CHECK(spin.status == 2);
-    CHECK(spin.out == "spin: " + nobody + ": No such file or directory\n");
+    CHECK(spin.out == "spin: " + nobody + ": No such file or directory (xorvox share must be running there)\n");
     if (!has_python()) XORVOX_SKIP("no python3 of version 3.9 or later");
     const Outcome wave = shell(kWave + " " + nobody);
     CHECK(wave.status == 1);

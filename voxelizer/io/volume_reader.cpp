@@ -32,7 +32,7 @@ Expected<VolumeSequence> read(const std::string& path, const std::string& name) 
     if (std::ranges::find(kExtensions, extension) == kExtensions.end()) {
         return fail(
             fmt::format("{}: its extension {} is of no known volume format; xorvox reads .binvox, .nrrd, "
-                        ".nhdr, .vox, .nii, .nii.gz and stacks of .png",
+                        ".nhdr, .vox, .nii, .nii.gz and stacks of .png (xorvox voxelize makes a volume of a mesh)",
                         name, io::quoted(extension)));
     }
     const auto bytes = read_file(path, name, kVolumeFile);
