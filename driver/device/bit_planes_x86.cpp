@@ -4,6 +4,7 @@
 
 #include <immintrin.h>
 
+#include <array>
 #include <cstring>
 #include <utility>
 
@@ -13,8 +14,9 @@
 #endif
 
 // As in bit_planes.cpp, pixels are brought into lanes: lane k holds byte k of each pixel. Pixels of less than a byte
-// have their bits lowest in their bytes, where what is above them is of no account. Functions carry their target
-// instead of the file, so that no inline function of a header is compiled for a processor that may be missing.
+// have their bits lowest in their bytes, where what is above them is of no account; those of 3 bits stay as they are.
+// Functions carry their target instead of the file, so that no inline function of a header is compiled for a processor
+// that may be missing.
 #define XORVOX_AVX2 [[gnu::target("avx2"), gnu::always_inline]] inline
 #define XORVOX_AVX512 [[gnu::target("avx512f,avx512bw"), gnu::always_inline]] inline
 
@@ -24,17 +26,31 @@ namespace {
 template <unsigned Bits>
 using AllBits = std::make_integer_sequence<unsigned, Bits>;
 
-// The numbers of Bits bits that lie close in the low part of a field are spread over it: the upper half of them moves
-// up, then the upper half of each half. For 3 bits to 8, and for 15 bits to 16.
-constexpr long long kLow12 = 0x0000000000000fff, kLow6 = 0x0000003f0000003f, kLow3 = 0x0007000700070007;
+// Four numbers of 15 bits that lie close in a word are spread over it: the upper half of them moves up by two bits,
+// then the upper half of each half by one.
 constexpr long long kLow30 = 0x000000003fffffff, kLow15 = 0x00007fff00007fff;
+
+/// Where bit `Bit` of each of 16 pixels of 3 bits is, which are six bytes.
+template <unsigned Bit>
+struct BitsOfThree {
+    std::array<std::uint8_t, 16> bytes{};
+    std::array<std::uint8_t, 16> bits{};
+    constexpr BitsOfThree() {
+        for (unsigned i = 0; i < 16; ++i) {
+            bytes[i] = static_cast<std::uint8_t>((3 * i + Bit) / 8);
+            bits[i] = static_cast<std::uint8_t>(1u << (3 * i + Bit) % 8);
+        }
+    }
+};
+template <unsigned Bit>
+constexpr BitsOfThree<Bit> kBitsOfThree;
 
 // Bytes of 128 bits of which pshufb makes four pixels of 24 bits, from byte `first` on, into RRRR GGGG BBBB, …
 #define XORVOX_PART_COLORS(first)                                                                              \
     first, first + 3, first + 6, first + 9, first + 1, first + 4, first + 7, first + 10, first + 2, first + 5, \
         first + 8, first + 11, -1, -1, -1, -1
 
-__m128i load_128(const std::byte* at) {
+__m128i load_128(const void* at) {
     __m128i bytes;
     std::memcpy(&bytes, at, sizeof bytes);
     return bytes;
@@ -79,15 +95,12 @@ XORVOX_AVX2 void load_lanes(const std::byte* at, __m256i* lanes) {
         x = _mm256_or_si256(x, _mm256_slli_epi32(x, 12));
         lanes[0] = _mm256_or_si256(x, _mm256_slli_epi32(x, 6));
     } else if constexpr (Bits == 3) {
+        // As they are, 16 pixels a half.
         std::uint32_t last;
         std::memcpy(&last, at + 8, 4);
         const __m128i all =
             _mm_insert_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at)), static_cast<int>(last), 2);
-        const __m256i x =
-            _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(all),
-                                _mm256_setr_epi8(0, 1, 2, -1, -1, -1, -1, -1, 3, 4, 5, -1, -1, -1, -1, -1,  //
-                                                 6, 7, 8, -1, -1, -1, -1, -1, 9, 10, 11, -1, -1, -1, -1, -1));
-        lanes[0] = spread(spread(spread(x, kLow12, 12, 20), kLow6, 6, 10), kLow3, 3, 5);
+        lanes[0] = _mm256_inserti128_si256(_mm256_castsi128_si256(all), _mm_srli_si128(all, 6), 1);
     } else if constexpr (Bits == 4) {
         const __m256i x = _mm256_cvtepu8_epi16(load_128(at));
         lanes[0] = _mm256_or_si256(x, _mm256_slli_epi16(x, 4));
@@ -114,17 +127,25 @@ XORVOX_AVX2 void load_lanes(const std::byte* at, __m256i* lanes) {
     }
 }
 
-template <unsigned Bit>
+template <unsigned Bits, unsigned Bit>
 XORVOX_AVX2 void put_plane(const __m256i* lanes, const PlanePlaces& places, std::size_t at) {
     if (places[Bit] == nullptr) return;
-    const int plane = _mm256_movemask_epi8(_mm256_slli_epi16(lanes[Bit / 8], 7 - Bit % 8));
+    int plane;
+    if constexpr (Bits == 3) {
+        const __m256i bytes = _mm256_broadcastsi128_si256(load_128(kBitsOfThree<Bit>.bytes.data()));
+        const __m256i bits = _mm256_broadcastsi128_si256(load_128(kBitsOfThree<Bit>.bits.data()));
+        const __m256i found = _mm256_and_si256(_mm256_shuffle_epi8(lanes[0], bytes), bits);
+        plane = _mm256_movemask_epi8(_mm256_cmpeq_epi8(found, bits));
+    } else {
+        plane = _mm256_movemask_epi8(_mm256_slli_epi16(lanes[Bit / 8], 7 - Bit % 8));
+    }
     std::memcpy(places[Bit] + at, &plane, sizeof plane);
 }
 
-template <unsigned... Bit>
+template <unsigned Bits, unsigned... Bit>
 XORVOX_AVX2 void put_planes(const __m256i* lanes, const PlanePlaces& places, std::size_t at,
                             std::integer_sequence<unsigned, Bit...>) {
-    (put_plane<Bit>(lanes, places, at), ...);
+    (put_plane<Bits, Bit>(lanes, places, at), ...);
 }
 
 // AVX-512: 64 pixels.
@@ -178,16 +199,12 @@ XORVOX_AVX512 void load_lanes(const std::byte* at, __m512i* lanes) {
         x = _mm512_or_si512(x, _mm512_slli_epi32(x, 12));
         lanes[0] = _mm512_or_si512(x, _mm512_slli_epi32(x, 6));
     } else if constexpr (Bits == 3) {
-        // Six bytes a quarter, of which three go to each word.
+        // As they are, 16 pixels a quarter.
         const __m256i all = _mm256_inserti128_si256(_mm256_castsi128_si256(load_128(at)),
                                                     _mm_loadl_epi64(reinterpret_cast<const __m128i*>(at + 16)), 1);
-        const __m512i sixes =
-            _mm512_permutexvar_epi16(_mm512_set_epi64(0, 0x000b'000b'000a'0009, 0, 0x0008'0008'0007'0006, 0,
-                                                      0x0005'0005'0004'0003, 0, 0x0002'0002'0001'0000),
-                                     _mm512_castsi256_si512(all));
-        const __m512i x = _mm512_shuffle_epi8(
-            sixes, _mm512_set4_epi32(-1, static_cast<int>(0xff050403), -1, static_cast<int>(0xff020100)));
-        lanes[0] = spread(spread(spread(x, kLow12, 12, 20), kLow6, 6, 10), kLow3, 3, 5);
+        lanes[0] = _mm512_permutexvar_epi16(_mm512_set_epi64(0, 0x000b'000b'000a'0009, 0, 0x0008'0008'0007'0006, 0,
+                                                             0x0005'0005'0004'0003, 0, 0x0002'0002'0001'0000),
+                                            _mm512_castsi256_si512(all));
     } else if constexpr (Bits == 4) {
         const __m512i x = _mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)));
         lanes[0] = _mm512_or_si512(x, _mm512_slli_epi16(x, 4));
@@ -214,17 +231,24 @@ XORVOX_AVX512 void load_lanes(const std::byte* at, __m512i* lanes) {
     }
 }
 
-template <unsigned Bit>
+template <unsigned Bits, unsigned Bit>
 XORVOX_AVX512 void put_plane(const __m512i* lanes, const PlanePlaces& places, std::size_t at) {
     if (places[Bit] == nullptr) return;
-    const __mmask64 plane = _mm512_test_epi8_mask(lanes[Bit / 8], _mm512_set1_epi8(static_cast<char>(1u << Bit % 8)));
+    __mmask64 plane;
+    if constexpr (Bits == 3) {
+        const __m512i bytes = _mm512_broadcast_i32x4(load_128(kBitsOfThree<Bit>.bytes.data()));
+        const __m512i bits = _mm512_broadcast_i32x4(load_128(kBitsOfThree<Bit>.bits.data()));
+        plane = _mm512_test_epi8_mask(_mm512_shuffle_epi8(lanes[0], bytes), bits);
+    } else {
+        plane = _mm512_test_epi8_mask(lanes[Bit / 8], _mm512_set1_epi8(static_cast<char>(1u << Bit % 8)));
+    }
     std::memcpy(places[Bit] + at, &plane, sizeof plane);
 }
 
-template <unsigned... Bit>
+template <unsigned Bits, unsigned... Bit>
 XORVOX_AVX512 void put_planes(const __m512i* lanes, const PlanePlaces& places, std::size_t at,
                               std::integer_sequence<unsigned, Bit...>) {
-    (put_plane<Bit>(lanes, places, at), ...);
+    (put_plane<Bits, Bit>(lanes, places, at), ...);
 }
 
 }  // namespace
@@ -241,7 +265,7 @@ template <unsigned Bits>
         for (std::uint32_t i = 0; i < blocks; ++i, from += kBlock / 8 * Bits, at += kBlock / 8) {
             __m256i lanes[(Bits + 7) / 8];
             load_lanes<Bits>(from, lanes);
-            put_planes(lanes, places, at, AllBits<Bits>());
+            put_planes<Bits>(lanes, places, at, AllBits<Bits>());
         }
     }
 }
@@ -258,7 +282,7 @@ template <unsigned Bits>
         for (std::uint32_t i = 0; i < blocks; ++i, from += kBlock / 8 * Bits, at += kBlock / 8) {
             __m512i lanes[(Bits + 7) / 8];
             load_lanes<Bits>(from, lanes);
-            put_planes(lanes, places, at, AllBits<Bits>());
+            put_planes<Bits>(lanes, places, at, AllBits<Bits>());
         }
     }
 }
