@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -71,6 +72,13 @@ glm::vec3 cell_of(const glm::vec3& point) {
     return {elementary::floor(point.x), elementary::floor(point.y), elementary::floor(point.z)};
 }
 
+/// Whether a place is in a cell whose numbers are below 2^23.
+bool is_in(const glm::vec3& point, const glm::vec3& cell) {
+    const glm::vec3 end = cell + 1.0f;
+    return (point.x >= cell.x) & (point.x < end.x) & (point.y >= cell.y) & (point.y < end.y) & (point.z >= cell.z) &
+           (point.z < end.z);
+}
+
 /// The gradients at the corners of a cell: of corner (i, j, k) entry i + 2·j + 4·k.
 using CellGradients = std::array<glm::vec3, 8>;
 
@@ -118,12 +126,16 @@ float perlin_noise(const glm::vec3& point) {
 }
 
 void perlin_noise(std::span<const glm::vec3> points, std::span<float> values) {
+    // Neighbours are mostly in the cell of those before them.
+    glm::vec3 cell(std::numeric_limits<float>::quiet_NaN());
+    CellGradients gradients;
     while (points.size() >= kBlock) {
-        const glm::vec3 cell = cell_of(points.front());
-        bool is_one_cell = true;
-        for (std::size_t i = 0; i < kBlock; ++i) is_one_cell = is_one_cell && cell_of(points[i]) == cell;
-        if (is_one_cell && is_in_range(cell)) {
-            const CellGradients gradients = gradients_of(cell);
+        const glm::vec3 first_cell = is_in(points.front(), cell) ? cell : cell_of(points.front());
+        bool is_one_cell = is_in_range(first_cell);
+        for (std::size_t i = 0; i < kBlock; ++i) is_one_cell &= is_in(points[i], first_cell);
+        if (is_one_cell) {
+            if (cell != first_cell) gradients = gradients_of(first_cell);
+            cell = first_cell;
             std::array<float, kBlock> x, y, z, found;
             for (std::size_t i = 0; i < kBlock; ++i) {
                 x[i] = points[i].x - cell.x;

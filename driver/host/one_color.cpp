@@ -15,18 +15,29 @@ void paint_row(const Table& eight, const std::byte* all, std::span<const std::ui
                std::span<std::byte> bytes) {
     std::size_t at = 0;
     for (std::uint64_t word : row) {
-        if (word == ~std::uint64_t{0} && at + 8 * kBytes <= bytes.size()) {
-            std::memcpy(bytes.data() + at, all, 8 * kBytes);
-        } else if (word != 0 && at + 8 * kBytes <= bytes.size()) {
-            std::byte* to = bytes.data() + at;
-            for (int i = 0; i < 8; ++i, word >>= 8, to += kBytes) std::memcpy(to, eight[word & 0xff].data(), kBytes);
-        } else {
-            std::size_t rest = at;
-            for (; word != 0; word >>= 8, rest += kBytes) {
-                std::memcpy(bytes.data() + rest, eight[word & 0xff].data(), std::min(kBytes, bytes.size() - rest));
+        std::byte* to = bytes.data() + at;
+        if (at + 8 * kBytes > bytes.size()) {
+            for (; at < bytes.size(); word >>= 8, at += kBytes) {
+                std::memcpy(bytes.data() + at, eight[word & 0xff].data(), std::min(kBytes, bytes.size() - at));
             }
+        } else if (word == 0) {
+            std::memset(to, 0, 8 * kBytes);
+        } else if (word == ~std::uint64_t{0}) {
+            std::memcpy(to, all, 8 * kBytes);
+        } else {
+            for (int i = 0; i < 8; ++i, word >>= 8, to += kBytes) std::memcpy(to, eight[word & 0xff].data(), kBytes);
         }
         at += 8 * kBytes;
+    }
+}
+
+/// One bit a pixel: they are the row's.
+void copy_row(std::span<const std::uint64_t> row, std::span<std::byte> bytes) {
+    // Word by word, as they were just written: a processor has to wait for those that are read together.
+    for (const std::uint64_t word : row) {
+        if (bytes.size() < sizeof word) return static_cast<void>(std::memcpy(bytes.data(), &word, bytes.size()));
+        std::memcpy(bytes.data(), &word, sizeof word);
+        bytes = bytes.subspan(sizeof word);
     }
 }
 
@@ -43,7 +54,8 @@ OneColor::OneColor(std::uint32_t code, PixelFormat format) : code_(code), bits_(
 void OneColor::paint(std::span<const std::uint64_t> row, std::span<std::byte> bytes) const {
     switch (bits_) {
         case 1:
-            if (code_ != 0) std::memcpy(bytes.data(), row.data(), bytes.size());  // padding is dark in both
+            if (code_ != 0) return copy_row(row, bytes);
+            std::ranges::fill(bytes, std::byte{0});
             return;
         case 2: return paint_row<2>(eight_, all_.data(), row, bytes);
         case 3: return paint_row<3>(eight_, all_.data(), row, bytes);

@@ -17,7 +17,8 @@ public:
 
     std::uint32_t code() const { return code_; }
 
-    /// Sets the pixels of `bytes`, a row of the wire that is all dark, whose bits are set in `row`.
+    /// Writes `bytes`, a row of the wire: the pixels whose bits are set in `row` have the code, all others are dark, as
+    /// is the padding, whose bits are clear.
     void paint(std::span<const std::uint64_t> row, std::span<std::byte> bytes) const;
 
 private:
