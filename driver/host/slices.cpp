@@ -98,17 +98,18 @@ Status FramePainter::paint_slices(ConstBitVolumeView volume, const ColorField& c
             const Panel& panel = display_.panels[p];
             const std::size_t words = row_words(panel.columns);
             const std::size_t length = row_bytes(panel, display_.format);
+            if (is_one_code) {
+                one->paint(bits, rows, rest.first(rows * length));
+                rest = rest.subspan(rows * length);
+                return;
+            }
             for (std::uint32_t i = 0; i < rows; ++i) {
                 const auto row_bits = bits.subspan(i * words, words);
-                if (is_one_code) {
-                    one->paint(row_bits, rest.first(length));
-                } else {
-                    PixelRow row{slice, p, begin + i, rest.first(length), slice_gain, pixel_gains, std::nullopt};
-                    if (dither_ != Dither::None) {
-                        row.threshold = dither_index(slice, p, begin + i, 0, dither_ == Dither::Temporal ? number : 0);
-                    }
-                    batch.add(row, row_bits);
+                PixelRow row{slice, p, begin + i, rest.first(length), slice_gain, pixel_gains, std::nullopt};
+                if (dither_ != Dither::None) {
+                    row.threshold = dither_index(slice, p, begin + i, 0, dither_ == Dither::Temporal ? number : 0);
                 }
+                batch.add(row, row_bits);
                 rest = rest.subspan(length);
                 if (pixel_gains != nullptr) pixel_gains += panel.columns;
             }
