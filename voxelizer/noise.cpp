@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -71,6 +72,13 @@ glm::vec3 cell_of(const glm::vec3& point) {
     return {elementary::floor(point.x), elementary::floor(point.y), elementary::floor(point.z)};
 }
 
+/// Whether a place is in a cell whose numbers are below 2^23.
+bool is_in(const glm::vec3& point, const glm::vec3& cell) {
+    const glm::vec3 end = cell + 1.0f;
+    return (point.x >= cell.x) & (point.x < end.x) & (point.y >= cell.y) & (point.y < end.y) & (point.z >= cell.z) &
+           (point.z < end.z);
+}
+
 /// The gradients at the corners of a cell: of corner (i, j, k) entry i + 2·j + 4·k.
 using CellGradients = std::array<glm::vec3, 8>;
 
@@ -118,28 +126,36 @@ float perlin_noise(const glm::vec3& point) {
 }
 
 void perlin_noise(std::span<const glm::vec3> points, std::span<float> values) {
-    while (points.size() >= kBlock) {
-        const glm::vec3 cell = cell_of(points.front());
-        bool is_one_cell = true;
-        for (std::size_t i = 0; i < kBlock; ++i) is_one_cell = is_one_cell && cell_of(points[i]) == cell;
-        if (is_one_cell && is_in_range(cell)) {
-            const CellGradients gradients = gradients_of(cell);
-            std::array<float, kBlock> x, y, z, found;
-            for (std::size_t i = 0; i < kBlock; ++i) {
-                x[i] = points[i].x - cell.x;
-                y[i] = points[i].y - cell.y;
-                z[i] = points[i].z - cell.z;
+    // Neighbours are mostly in the cell of those before them.
+    glm::vec3 cell(std::numeric_limits<float>::quiet_NaN());
+    CellGradients gradients{};
+    while (!points.empty()) {
+        if (!is_in(points.front(), cell)) {
+            cell = cell_of(points.front());
+            if (!is_in_range(cell) || !is_in_range(cell + 1.0f)) {
+                cell.x = std::numeric_limits<float>::quiet_NaN();
+                values.front() = perlin_noise(points.front());
+                points = points.subspan(1);
+                values = values.subspan(1);
+                continue;
             }
-            // Nothing depends on tables here, so that compilers take several places at once.
-            for (std::size_t i = 0; i < kBlock; ++i) found[i] = in_cell(gradients, {x[i], y[i], z[i]});
-            std::ranges::copy(found, values.begin());
-        } else {
-            for (std::size_t i = 0; i < kBlock; ++i) values[i] = perlin_noise(points[i]);
+            gradients = gradients_of(cell);
         }
-        points = points.subspan(kBlock);
-        values = values.subspan(kBlock);
+        std::size_t count = 1;
+        while (count < std::min(kBlock, points.size()) && is_in(points[count], cell)) ++count;
+        // The rest of the block is computed, too, and left.
+        std::array<float, kBlock> x{}, y{}, z{}, found;
+        for (std::size_t i = 0; i < count; ++i) {
+            x[i] = points[i].x - cell.x;
+            y[i] = points[i].y - cell.y;
+            z[i] = points[i].z - cell.z;
+        }
+        // Nothing depends on tables here, so that compilers take several places at once.
+        for (std::size_t i = 0; i < kBlock; ++i) found[i] = in_cell(gradients, {x[i], y[i], z[i]});
+        std::copy_n(found.begin(), count, values.begin());
+        points = points.subspan(count);
+        values = values.subspan(count);
     }
-    for (std::size_t i = 0; i < points.size(); ++i) values[i] = perlin_noise(points[i]);
 }
 
 float simplex_noise(const glm::vec3& point) {

@@ -76,8 +76,8 @@ struct BitPlaneLayout {
 /// Writes the planes of `pixels` (layout.pixel_bytes(), in scan-out order: driver/display/description.h) to `planes`
 /// (layout.bytes()), all bits of them. What is behind the last pixel of a row is not looked at. The two must not
 /// overlap. Ok; InvalidArgument for spans that are shorter, and for a layout that is none, with nothing written. No
-/// state: from any thread or interrupt. A block of 8 pixels, or of 16 where there is SSE2, takes a few instructions a
-/// plane.
+/// state: from any thread or interrupt. A block of 8 pixels, or of 32 or 64 on x86 processors that have AVX2 or AVX-512
+/// (found out at run time), takes a few instructions a plane.
 [[nodiscard]] Status split_bit_planes(const BitPlaneLayout& layout, std::span<const std::byte> pixels,
                                       std::span<std::byte> planes);
 

@@ -99,12 +99,4 @@ Ramp::Ramp(std::span<const glm::dvec3> stops) {
     }
 }
 
-glm::vec3 Ramp::at(float t) const {
-    const float clamped = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
-    const float place = clamped * static_cast<float>(steps_);
-    const std::size_t step = std::min(static_cast<std::size_t>(place), steps_ - 1);
-    const float rest = place - static_cast<float>(step);
-    return table_[step] * (1.0f - rest) + table_[step + 1] * rest;
-}
-
 }  // namespace xorvox::host

@@ -2,6 +2,7 @@
 // last bits differ between versions.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +37,13 @@ public:
     explicit Ramp(std::span<const glm::dvec3> stops);
 
     /// The colour at t, which is clamped to 0 … 1.
-    glm::vec3 at(float t) const;
+    glm::vec3 at(float t) const {
+        const float clamped = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
+        const float place = clamped * static_cast<float>(steps_);
+        const std::size_t step = std::min(static_cast<std::size_t>(place), steps_ - 1);
+        const float rest = place - static_cast<float>(step);
+        return table_[step] * (1.0f - rest) + table_[step + 1] * rest;
+    }
 
 private:
     std::size_t steps_;

@@ -17,8 +17,9 @@ public:
 
     std::uint32_t code() const { return code_; }
 
-    /// Sets the pixels of `bytes`, a row of the wire that is all dark, whose bits are set in `row`.
-    void paint(std::span<const std::uint64_t> row, std::span<std::byte> bytes) const;
+    /// Writes `bytes`, `rows` rows of the wire: the pixels whose bits are set in `bits`, row_words() words a row, have
+    /// the code, all others are dark, as is the padding, whose bits are clear. `rows` is at least 1.
+    void paint(std::span<const std::uint64_t> bits, std::uint32_t rows, std::span<std::byte> bytes) const;
 
 private:
     static constexpr std::size_t kMostBytes = 24;

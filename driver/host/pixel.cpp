@@ -37,11 +37,6 @@ float luminance(const glm::vec3& linear) {
     return 0.2126f * linear.r + 0.7152f * linear.g + 0.0722f * linear.b;
 }
 
-glm::vec3 clipped(const glm::vec3& color) {
-    const auto clip = [](float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; };
-    return {clip(color.r), clip(color.g), clip(color.b)};
-}
-
 std::uint32_t quantize(glm::vec3 linear, PixelFormat format) {
     if (format == PixelFormat::Mono1) return is_black(linear) ? 0 : 1;
     const auto [red, green, blue] = channel_bits(format);

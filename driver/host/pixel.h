@@ -1,6 +1,7 @@
 // Pixels: colours to codes, and codes to the bits of a row, as driver/display/description.h draws them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,10 @@ std::array<ChannelBits, 3> channel_bits(PixelFormat format);
 float luminance(const glm::vec3& linear);
 
 /// The colour with every channel clipped to 0 … 1; what is no number is 0.
-glm::vec3 clipped(const glm::vec3& color);
+inline glm::vec3 clipped(const glm::vec3& color) {
+    const auto clip = [](float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; };
+    return {clip(color.r), clip(color.g), clip(color.b)};
+}
 
 /// The code of a linear colour in `format`, in the low bits: each channel clipped to 0 … 1 and rounded to nearest.
 /// Mono1 has no levels: it is lit unless the colour is black. Mono2 and Mono4 show the colour's luminance.

@@ -75,7 +75,6 @@ Status FramePainter::paint_slices(ConstBitVolumeView volume, const ColorField& c
     }
     const std::size_t bytes_a_slice = slice_bytes(display_);
     std::span<std::byte> rest = frame.subspan(first * bytes_a_slice, count * bytes_a_slice);
-    std::ranges::fill(rest, std::byte{0});
 
     const glm::vec3 gain = brightness_ * white_;
     const std::optional<glm::vec3> constant = color.constant();
@@ -89,6 +88,7 @@ Status FramePainter::paint_slices(ConstBitVolumeView volume, const ColorField& c
             const std::uint32_t code = encoder_.nearest(clipped(*constant) * slice_gain);
             if (!one || one->code() != code) one.emplace(code, display_.format);
         }
+        if (!is_one_code) std::ranges::fill(rest.first(bytes_a_slice), std::byte{0});
         std::size_t allowed_at = slice * slice_words_;
         const auto paint_rows = [&](std::uint32_t p, std::uint32_t begin, std::uint32_t rows,
                                     std::span<std::uint64_t> bits) {
@@ -98,17 +98,18 @@ Status FramePainter::paint_slices(ConstBitVolumeView volume, const ColorField& c
             const Panel& panel = display_.panels[p];
             const std::size_t words = row_words(panel.columns);
             const std::size_t length = row_bytes(panel, display_.format);
+            if (is_one_code) {
+                one->paint(bits, rows, rest.first(rows * length));
+                rest = rest.subspan(rows * length);
+                return;
+            }
             for (std::uint32_t i = 0; i < rows; ++i) {
                 const auto row_bits = bits.subspan(i * words, words);
-                if (is_one_code) {
-                    one->paint(row_bits, rest.first(length));
-                } else {
-                    PixelRow row{slice, p, begin + i, rest.first(length), slice_gain, pixel_gains, std::nullopt};
-                    if (dither_ != Dither::None) {
-                        row.threshold = dither_index(slice, p, begin + i, 0, dither_ == Dither::Temporal ? number : 0);
-                    }
-                    batch.add(row, row_bits);
+                PixelRow row{slice, p, begin + i, rest.first(length), slice_gain, pixel_gains, std::nullopt};
+                if (dither_ != Dither::None) {
+                    row.threshold = dither_index(slice, p, begin + i, 0, dither_ == Dither::Temporal ? number : 0);
                 }
+                batch.add(row, row_bits);
                 rest = rest.subspan(length);
                 if (pixel_gains != nullptr) pixel_gains += panel.columns;
             }

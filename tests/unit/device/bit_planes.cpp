@@ -6,22 +6,31 @@
 #include <string>
 #include <vector>
 
+#include "driver/device/bit_planes_x86.h"
 #include "tests/catch.h"
-#include "tests/unit/device/bit_planes_portable.h"
 
 using namespace xorvox;
 using device::BitPlaneLayout;
+using device::PlaneMethod;
 
 namespace {
 
-using Split = Status (*)(const BitPlaneLayout&, std::span<const std::byte>, std::span<std::byte>);
-
 struct Way {
     const char* name;
-    Split split;
+    PlaneMethod method;
 };
-constexpr Way kWays[] = {{"of this processor", device::split_bit_planes},
-                         {"of any processor", device::split_bit_planes_portable}};
+constexpr Way kAllWays[] = {{"on any processor", PlaneMethod::Portable},
+                            {"with AVX2", PlaneMethod::Avx2},
+                            {"with AVX-512", PlaneMethod::Avx512}};
+
+/// Those that this processor has.
+std::vector<Way> ways() {
+    std::vector<Way> found;
+    for (const Way& way : kAllWays) {
+        if (has(way.method)) found.push_back(way);
+    }
+    return found;
+}
 
 std::uint32_t bit_at(std::span<const std::byte> bytes, std::size_t bit) {
     return std::to_integer<std::uint32_t>(bytes[bit / 8]) >> (bit % 8) & 1u;
@@ -89,29 +98,61 @@ void check(const BitPlaneLayout& layout, std::span<const std::byte> pixels, std:
 }  // namespace
 
 TEST_CASE("bit planes put together again are the pixels, in every format and width") {
-    for (const Way& way : kWays) {
+    for (const Way& way : ways()) {
         for (const PixelFormat format : kPixelFormats) {
             for (std::uint32_t columns = 1; columns <= 200; ++columns) {
                 const BitPlaneLayout layout{format, columns, 3, 8};
                 const auto pixels = noise(layout.pixel_bytes(), columns);
                 std::vector<std::byte> planes(layout.bytes(), std::byte{0x5a});
                 INFO(way.name << ", " << to_string(format) << ", " << columns << " columns");
-                REQUIRE(way.split(layout, pixels, planes) == Status::Ok);
+                REQUIRE(split_bit_planes(layout, pixels, planes, way.method) == Status::Ok);
                 check(layout, pixels, planes);
             }
         }
     }
 }
 
+TEST_CASE("every method makes the same bit planes, however many are shown, at any byte") {
+    for (const Way& way : ways()) {
+        for (const PixelFormat format : kPixelFormats) {
+            for (std::uint32_t shown = 1; shown <= 8; ++shown) {
+                for (std::uint32_t columns = 1; columns <= 200; ++columns) {
+                    const BitPlaneLayout layout{format, columns, 2, shown};
+                    const std::size_t odd = columns % 17;
+                    const auto pixels = noise(odd + layout.pixel_bytes(), columns + shown);
+                    std::vector<std::byte> planes(odd + layout.bytes() + 16, std::byte{0xc3});
+                    std::vector<std::byte> expected = planes;
+                    const auto split = [&](std::vector<std::byte>& to, PlaneMethod method) {
+                        return split_bit_planes(layout, std::span(pixels).subspan(odd),
+                                                std::span(to).subspan(odd, layout.bytes()), method);
+                    };
+                    INFO(way.name << ", " << to_string(format) << ", " << shown << " shown, " << columns << " columns");
+                    REQUIRE(split(expected, PlaneMethod::Portable) == Status::Ok);
+                    REQUIRE(split(planes, way.method) == Status::Ok);
+                    REQUIRE(planes == expected);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("every method of bit planes is tested") {
+    std::string missing;
+    for (const Way& way : kAllWays) {
+        if (!has(way.method)) missing += std::string(", ") + way.name;
+    }
+    if (!missing.empty()) XORVOX_SKIP("this processor has no bit planes " + missing.substr(2));
+}
+
 TEST_CASE("only the most significant bit planes are shown") {
-    for (const Way& way : kWays) {
+    for (const Way& way : ways()) {
         for (const PixelFormat format : kPixelFormats) {
             for (std::uint32_t shown = 1; shown <= bits_per_channel(format); ++shown) {
                 const BitPlaneLayout layout{format, 37, 2, shown};
                 const auto pixels = noise(layout.pixel_bytes(), shown);
                 std::vector<std::byte> planes(layout.bytes());
                 INFO(way.name << ", " << to_string(format) << ", " << shown << " shown");
-                REQUIRE(way.split(layout, pixels, planes) == Status::Ok);
+                REQUIRE(split_bit_planes(layout, pixels, planes, way.method) == Status::Ok);
                 check(layout, pixels, planes);
             }
         }
@@ -119,14 +160,14 @@ TEST_CASE("only the most significant bit planes are shown") {
 }
 
 TEST_CASE("bit planes may begin at any byte, and nothing beyond them is touched") {
-    for (const Way& way : kWays) {
+    for (const Way& way : ways()) {
         for (const PixelFormat format : kPixelFormats) {
             for (std::size_t odd = 0; odd < 16; ++odd) {
                 const BitPlaneLayout layout{format, 77, 2, 8};
                 const auto pixels = noise(odd + layout.pixel_bytes(), 1);
                 std::vector<std::byte> room(layout.bytes() + 48, std::byte{0xc3});
                 const auto planes = std::span(room).subspan(16 - odd, layout.bytes());
-                REQUIRE(way.split(layout, std::span(pixels).subspan(odd), planes) == Status::Ok);
+                REQUIRE(split_bit_planes(layout, std::span(pixels).subspan(odd), planes, way.method) == Status::Ok);
                 INFO(way.name << ", " << to_string(format) << ", " << odd << " bytes off");
                 check(layout, std::span(pixels).subspan(odd), planes);
                 const auto untouched = [](std::byte byte) { return byte == std::byte{0xc3}; };
@@ -149,9 +190,9 @@ TEST_CASE("the planes of two rows of rgb332 lie as they are drawn") {
     pixels[8] = std::byte{0x40};   // R1
     pixels[9] = std::byte{0x24};   // R0, which is not shown, and G0 likewise
     pixels[10] = std::byte{0x03};  // row 1: B1, B0
-    for (const Way& way : kWays) {
+    for (const Way& way : ways()) {
         std::vector<std::byte> planes(24);
-        REQUIRE(way.split(layout, pixels, planes) == Status::Ok);
+        REQUIRE(split_bit_planes(layout, pixels, planes, way.method) == Status::Ok);
         std::vector<std::byte> drawing(24);
         drawing[0] = std::byte{0x01};
         drawing[3] = std::byte{0x01};
@@ -162,13 +203,13 @@ TEST_CASE("the planes of two rows of rgb332 lie as they are drawn") {
 }
 
 TEST_CASE("what is behind the last pixel of a row is not looked at") {
-    for (const Way& way : kWays) {
+    for (const Way& way : ways()) {
         for (const PixelFormat format :
              {PixelFormat::Mono1, PixelFormat::Mono2, PixelFormat::Rgb111, PixelFormat::Mono4, PixelFormat::Rgb555}) {
             const BitPlaneLayout layout{format, 3, 1, 8};
             const std::vector<std::byte> pixels(layout.pixel_bytes(), std::byte{0xff});
             std::vector<std::byte> planes(layout.bytes());
-            REQUIRE(way.split(layout, pixels, planes) == Status::Ok);
+            REQUIRE(split_bit_planes(layout, pixels, planes, way.method) == Status::Ok);
             INFO(way.name << ", " << to_string(format));
             CHECK(planes == std::vector<std::byte>(layout.bytes(), std::byte{0x07}));
         }
