@@ -86,8 +86,12 @@ TEST_CASE("a display that leaves in the middle of a stream costs the rest, not t
     const std::string line = display.line().value_or("");
     const std::string address = line.substr(line.rfind("tcp:"));
     Background host({"show", kDuck, "--display", "cube8-595", "--spin", "30", "--seconds", "60", "--to", address});
-    std::string said;
-    while (!said.starts_with("frame 3:")) said = display.line().value_or("frame 3: the display ended by itself");
+    // Any three: where time is short a display passes frames over.
+    for (int shown = 0; shown < 3;) {
+        const std::optional<std::string> said = display.line();
+        REQUIRE(said);
+        if (said->starts_with("frame ")) ++shown;
+    }
     CHECK(display.terminate() == 0);
     std::string figures;
     while (const std::optional<std::string> more = host.line()) figures += *more + "\n";
