@@ -176,6 +176,14 @@ TEST_CASE("nrrd: sizes are not believed before the bytes are there") {
     CHECK_THAT(refusal(kParse, nrrd("uint8", "gzip") + bomb), contains("hold more bytes") && contains("12"));
 }
 
+TEST_CASE("nrrd: gzip data of many members are theirs, one after the other") {
+    std::string members = gzip(kBytes.substr(0, 5));
+    const std::string empty = gzip("");
+    for (int n = 0; n < 20000; ++n) members += empty;
+    CHECK(only(nrrd("uint8", "gzip") + members + gzip(kBytes.substr(5))).values[11] == 11.0f);
+    CHECK_THAT(refusal(kParse, nrrd("uint8", "gzip") + members), contains("hold 5 bytes"));
+}
+
 TEST_CASE("nrrd: hostile bytes give a sound volume or one line") {
     const std::string more = "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (1,2,3)\n";
     const std::string plain = nrrd("uint8", "raw", more) + kBytes;
