@@ -161,6 +161,16 @@ TEST_CASE("resample: any number of threads gives the same bits") {
     }
 }
 
+TEST_CASE("resample: a stop request ends it") {
+    const SampledVolume volume = make(VolumeKind::Binary, 3, 3, 3, 4);
+    const Lattice lattice = regular(70, 5, 11);
+    BitVolume bits(lattice);
+    std::stop_source stop;
+    stop.request_stop();
+    CHECK(resample(volume, 0.0, askew(), lattice, bits.view(), 2, stop.get_token()) == Status::Cancelled);
+    CHECK(bits.count() == 0);
+}
+
 TEST_CASE("resample: on its own grid a volume is itself, and beyond it there is nothing") {
     const SampledVolume volume = make(VolumeKind::Binary, 65, 3, 4, 7);
     Lattice lattice;
