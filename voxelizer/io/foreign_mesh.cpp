@@ -21,6 +21,7 @@
 #include "voxelizer/io/formats.h"
 #include "voxelizer/io/image_file.h"
 #include "voxelizer/io/import_stream.h"
+#include "voxelizer/io/model_images.h"
 #include "voxelizer/io/text_scanner.h"
 
 extern char** environ;
@@ -165,24 +166,16 @@ Expected<ImportedModel> run(const std::string& path, const std::string& name, co
 
 Expected<std::vector<Image>> read_images(const ImportedModel& model, const std::string& name,
                                          const SideFiles& side_files) {
-    constexpr std::size_t kMostPixels = std::size_t{1} << 28;
-    std::vector<Image> images;
-    std::size_t pixels = 0;
+    ModelImages images(name);
     for (const ImportedImage& from : model.images) {
         Expected<std::string> bytes = from.bytes;
         if (from.is_name) bytes = side_files.read_by_name(from.bytes, name, kImageFile);
         if (!bytes) return tl::unexpected(std::move(bytes.error()));
-        auto image = decode_image(
-            *bytes, from.is_name ? fmt::format("{}: {}", name, quoted(from.bytes)) : name + ": an image in it");
-        if (!image) return tl::unexpected(std::move(image.error()));
-        pixels += image->pixels.size();
-        if (pixels > kMostPixels) {
-            return fail(
-                fmt::format("{}: images of more than {} pixels together; make them smaller", name, kMostPixels));
-        }
-        images.push_back(std::move(*image));
+        const auto added = images.add(decode_image(
+            *bytes, from.is_name ? fmt::format("{}: {}", name, quoted(from.bytes)) : name + ": an image in it"));
+        if (!added) return tl::unexpected(added.error());
     }
-    return images;
+    return std::move(images).take();
 }
 
 void add_colors(ImportedModel& model, const std::string& name, const SideFiles& side_files, ParsedModel& parsed) {
