@@ -175,9 +175,8 @@ private:
             return wrong(where, fmt::format("{} dimensions; three of space and one of time are read", dim[0]));
         }
         if (auto ok = check_sides(sides[0], sides[1], sides[2], source_, fmt::format("byte {}", where)); !ok) return ok;
-        constexpr std::uint64_t kMostFrames = 65536;
-        if (sides[3] > kMostFrames) {
-            return wrong(where, fmt::format("{} frames; at most {} are read", sides[3], kMostFrames));
+        if (sides[3] > kMaxVolumeFrames) {
+            return wrong(where, fmt::format("{} frames; at most {} are read", sides[3], kMaxVolumeFrames));
         }
         volume_.nx = static_cast<std::uint32_t>(sides[0]);
         volume_.ny = static_cast<std::uint32_t>(sides[1]);

@@ -1,6 +1,8 @@
 #include <numeric>
 #include <string>
 
+#include <sys/stat.h>
+
 #include "tests/unit/io/contains.h"
 #include "tests/unit/io/temp_folder.h"
 #include "tests/unit/io/volume_bytes.h"
@@ -126,11 +128,17 @@ TEST_CASE("nrrd: data beside a detached header are read, no other files") {
     CHECK(volume->frames[0].values[11] == 11.0f);
     put(folder / "b.nhdr", nrrd("uint8", "raw", "data file: b.raw\n"));
     CHECK_THAT(io::read_volumes(folder / "b.nhdr").error().message, contains("b.raw") && contains("No such file"));
-    for (const std::string name : {"/etc/passwd", "../a.raw", "..", "LIST", "a%d.raw 1 2 1", "b/a.raw"}) {
+    const auto refused = [&folder](const std::string& name) {
         put(folder / "c.nhdr", nrrd("uint8", "raw", "data file: " + name + "\n"));
-        CHECK_THAT(io::read_volumes(folder / "c.nhdr").error().message,
-                   contains("data file") && contains("own folder"));
-    }
+        return io::read_volumes(folder / "c.nhdr").error().message;
+    };
+    for (const char* name : {"LIST", "a%d.raw 1 2 1"}) CHECK_THAT(refused(name), contains("no list or pattern"));
+    CHECK_THAT(refused("/etc/passwd"), contains("c.nhdr: names '/etc/passwd', which is an absolute path"));
+    CHECK_THAT(refused("../a.raw"), contains("leads out of the folder"));
+    CHECK_THAT(refused(".."), contains("leads out of the folder"));
+    CHECK_THAT(refused("."), contains("is no regular file"));
+    REQUIRE(::mkfifo((folder / "pipe.raw").c_str(), 0600) == 0);
+    CHECK_THAT(refused("pipe.raw"), contains("'pipe.raw', which is no regular file"));
 }
 
 TEST_CASE("nrrd: values that are not finite are refused with their voxel") {
