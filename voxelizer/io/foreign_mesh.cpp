@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "voxelizer/io/corner_colors.h"
+#include "voxelizer/io/descriptor.h"
 #include "voxelizer/io/file_name.h"
 #include "voxelizer/io/formats.h"
 #include "voxelizer/io/image_file.h"
@@ -63,11 +64,12 @@ public:
             error_ = errno;
             return;
         }
-        output_ = pipe[0];
+        output_ = Descriptor(pipe[0]);
+        const Descriptor input(pipe[1]);
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, input.number(), STDOUT_FILENO);
         posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
         std::string name = program;
         std::string argument = path;
@@ -75,18 +77,14 @@ public:
         error_ = ::posix_spawn(&pid_, program.c_str(), &actions, nullptr, arguments.data(), environ);
         if (error_ != 0) pid_ = -1;
         posix_spawn_file_actions_destroy(&actions);
-        ::close(pipe[1]);
     }
-    ~Child() {
-        end();
-        if (output_ >= 0) ::close(output_);
-    }
+    ~Child() { end(); }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
     /// Of starting it; 0: it runs.
     int error() const { return error_; }
-    int output() const { return output_; }
+    int output() const { return output_.number(); }
 
     /// Ends it, if it has not, and gives its status as waitpid() does. One that has begun to exit keeps its status.
     int end() {
@@ -101,7 +99,7 @@ public:
 
 private:
     pid_t pid_ = -1;
-    int output_ = -1;
+    Descriptor output_;
     int error_ = 0;
     int status_ = 0;
 };
