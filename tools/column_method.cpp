@@ -16,6 +16,7 @@
 #include "tools/solid_methods.h"
 #include "tools/stop.h"
 #include "voxelizer/io/file_name.h"
+#include "voxelizer/io/memory.h"
 #include "voxelizer/io/volume_file.h"
 #include "voxelizer/voxelize.h"
 
@@ -68,7 +69,7 @@ struct Memory {
 
 Memory allowed_memory(const VoxelizeOptions& options) {
     if (options.memory_mib) return {*options.memory_mib * kMiB, true};
-    const std::uint64_t free = available_bytes();
+    const std::uint64_t free = io::available_bytes();
     return {free - free / 8, false};
 }
 

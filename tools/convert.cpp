@@ -23,6 +23,10 @@
 namespace xorvox::tools {
 namespace {
 
+/// How many times as many voxels straightening may make, beyond those that any volume may become.
+constexpr double kMostGrowth = 64.0;
+constexpr double kAlwaysStraightened = 1 << 24;
+
 /// Which axis of space each axis of a volume lies along, where it lies along one.
 std::optional<std::array<int, 3>> axes_along_space(const SampledVolume& volume) {
     constexpr double kAskew = 1e-6;  // Of a voxel a voxel.
@@ -92,7 +96,8 @@ Expected<BitVolume> reorder(const SampledVolume& volume, double threshold, const
     return bits;
 }
 
-/// On a grid along the axes of space, as fine as the volume is at its finest.
+/// On a grid along the axes of space, as fine as the volume is at its finest. A long voxel that lies askew would make a
+/// small file a huge one.
 Expected<BitVolume> straighten(const SampledVolume& volume, double threshold, Lattice& lattice) {
     const Box box = box_of(volume);
     double pitch = glm::length(glm::dvec3(volume.to_mm[0]));
@@ -104,16 +109,29 @@ Expected<BitVolume> straighten(const SampledVolume& volume, double threshold, La
                         "are written",
                         sides.x, sides.y, sides.z, kMaxLatticeSide));
     }
+    const double most = std::max(kMostGrowth * static_cast<double>(volume.voxel_count()), kAlwaysStraightened);
+    if (sides.x * sides.y * sides.z > most) {
+        return fail(
+            fmt::format("the volume lies askew, and straightened its {} × {} × {} voxels become {} × {} × {}; "
+                        "resample it with the program that made it",
+                        volume.nx, volume.ny, volume.nz, sides.x, sides.y, sides.z));
+    }
     lattice.nx = static_cast<std::uint32_t>(sides.x);
     lattice.ny = static_cast<std::uint32_t>(sides.y);
     lattice.nz = static_cast<std::uint32_t>(sides.z);
     lattice.pitch = glm::dvec3(pitch);
     lattice.origin = (box.lower + box.upper - sides * pitch) / 2.0;
+    const std::uint64_t bytes = sizeof(std::uint64_t) * volume_words(lattice.nx, lattice.ny, lattice.nz);
+    if (const auto fits = check_memory(bytes, "the volume, which lies askew,"); !fits) {
+        return tl::unexpected(fits.error());
+    }
     BitVolume bits(lattice);
     const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 64u);
-    if (resample(volume, threshold, glm::inverse(volume.to_mm), lattice, bits.view(), threads) != Status::Ok) {
-        return fail("the volume cannot be resampled");
-    }
+    const StopRequests stop;
+    const Status status =
+        resample(volume, threshold, glm::inverse(volume.to_mm), lattice, bits.view(), threads, stop.token());
+    if (status == Status::Cancelled) return fail("stopped; nothing was written");
+    if (status != Status::Ok) return fail("the volume cannot be resampled");
     return bits;
 }
 

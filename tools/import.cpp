@@ -1,10 +1,8 @@
 // xorvox-import FILE: reads a model by assimp and writes it to standard output, as voxelizer/io/import_stream.h says.
 //
 // A program of its own, because assimp may crash, hang or eat all memory on a damaged file. Before it opens the file it
-// gives up what it does not need: memory, time, writing files, the network, other programs.
-#include <array>
-#include <cerrno>
-#include <csignal>
+// gives up what it does not need: memory, time, writing files, the network, other programs. tools/import_sandbox.h says
+// how.
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -19,80 +17,18 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 #include <assimp/Importer.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "tools/import_sandbox.h"
 #include "voxelizer/io/import_stream.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define XORVOX_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define XORVOX_SANITIZED 1
-#endif
-#endif
 
 namespace {
 
 using xorvox::SurfaceMaterial;
 using xorvox::TextureWrap;
 using xorvox::io::ImportedModel;
-
-constexpr rlim_t kMemoryBytes = rlim_t{4} << 30;
-constexpr rlim_t kCpuSeconds = 60;
-
-void limit(int resource, rlim_t most) {
-    const rlimit both{most, most};
-    if (setrlimit(resource, &both) != 0) throw std::runtime_error("its limits cannot be set");
-}
-
-#if defined(__x86_64__) || defined(__aarch64__)
-// From here on the kernel answers EPERM to whoever wants the network or another program.
-void forbid_calls() {
-#if defined(__x86_64__)
-    constexpr std::uint32_t kMachine = AUDIT_ARCH_X86_64;
-#else
-    constexpr std::uint32_t kMachine = AUDIT_ARCH_AARCH64;
-#endif
-    constexpr std::array<std::uint32_t, 7> kForbidden = {SYS_socket, SYS_connect, SYS_execve,           SYS_execveat,
-                                                         SYS_ptrace, SYS_kill,    SYS_process_vm_writev};
-    std::vector<sock_filter> program = {
-        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, arch)),
-        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kMachine, 1, 0),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
-        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
-    };
-    for (const std::uint32_t call : kForbidden) {
-        program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, call, 0, 1));
-        program.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM));
-    }
-    program.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
-    const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    // Kernels without filters, in some containers: the limits hold all the same.
-    prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter, 0, 0);
-}
-#else
-void forbid_calls() {}
-#endif
-
-void give_up_what_is_not_needed() {
-    prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_FSIZE, 0);
-    limit(RLIMIT_CPU, kCpuSeconds);
-#ifndef XORVOX_SANITIZED
-    limit(RLIMIT_AS, kMemoryBytes);  // A sanitizer's shadow memory does not fit into it.
-#endif
-    forbid_calls();
-}
 
 glm::dmat4 matrix(const aiMatrix4x4& m) {
     glm::dmat4 result(1.0);
@@ -230,8 +166,9 @@ private:
 
 std::string import(const char* path) {
     try {
-        give_up_what_is_not_needed();
+        xorvox::tools::give_up_what_is_not_needed();
         Assimp::Importer importer;
+        importer.SetIOHandler(new xorvox::tools::ModelFiles(path));  // Which it owns.
         const aiScene* scene = importer.ReadFile(path, 0);
         if (!scene) return xorvox::io::encode_import_error(importer.GetErrorString());
         return encode_import(Converter(*scene).convert());

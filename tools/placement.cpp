@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <string>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "driver/display/lattice.h"
 #include "voxelizer/fit.h"
+#include "voxelizer/io/memory.h"
 
 namespace xorvox::tools {
 namespace {
@@ -71,21 +70,8 @@ Expected<Lattice> place_grid(const GridOptions& options, const MeshView& mesh, c
     return lattice;
 }
 
-std::uint64_t available_bytes() {
-    rlimit limit = {};
-    std::uint64_t allowed = std::numeric_limits<std::uint64_t>::max();
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) allowed = limit.rlim_cur;
-    std::ifstream meminfo("/proc/meminfo");
-    std::string key;
-    std::uint64_t kib = 0;
-    while (meminfo >> key) {
-        if (key == "MemAvailable:" && meminfo >> kib) return std::min(allowed, kib * 1024);
-    }
-    return allowed;
-}
-
 Expected<void> check_memory(std::uint64_t bytes, const std::string& what) {
-    const std::uint64_t available = available_bytes();
+    const std::uint64_t available = io::available_bytes();
     if (bytes <= available) return {};
     return fail(fmt::format("{} needs {} MiB of memory and there are {} MiB free; choose fewer voxels", what,
                             bytes >> 20, available >> 20));

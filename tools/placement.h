@@ -20,9 +20,6 @@ namespace xorvox::tools {
 /// mesh.
 Expected<Lattice> place_grid(const GridOptions& options, const MeshView& mesh, const std::string& source);
 
-/// Bytes that this process can still get without swapping; all of them where the system does not say.
-std::uint64_t available_bytes();
-
 /// Refuses work that needs more memory than this machine has free; `what` names it in the message.
 Expected<void> check_memory(std::uint64_t bytes, const std::string& what);
 

@@ -103,19 +103,23 @@ Status resample_rows(const SampledVolume& volume, double threshold, const glm::d
 }
 
 Status resample(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume, const Lattice& lattice,
-                BitVolumeView out, unsigned threads) {
+                BitVolumeView out, unsigned threads, const std::stop_token& stop) {
     const std::size_t rows = std::size_t{lattice.ny} * lattice.nz;
     if (threads == 0 || !fits(volume, lattice, {0, rows}, out)) return Status::InvalidArgument;
     const auto part = [&](unsigned number) {
         const std::size_t first = rows * number / threads;
         const std::size_t end = rows * (number + 1) / threads;
-        // That all fits was seen above.
-        (void)resample_rows(volume, threshold, to_volume, lattice, {first, end - first}, out);
+        for (std::size_t row = first; row < end && !stop.stop_requested(); ++row) {
+            // That all fits was seen above.
+            (void)resample_rows(volume, threshold, to_volume, lattice, {row, 1}, out);
+        }
     };
-    std::vector<std::jthread> others;
-    for (unsigned number = 1; number < threads; ++number) others.emplace_back(part, number);
-    part(0);
-    return Status::Ok;
+    {
+        std::vector<std::jthread> others;
+        for (unsigned number = 1; number < threads; ++number) others.emplace_back(part, number);
+        part(0);
+    }
+    return stop.stop_requested() ? Status::Cancelled : Status::Ok;
 }
 
 double otsu_threshold(std::span<const float> values) {

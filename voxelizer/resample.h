@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <span>
+#include <stop_token>
 
 #include <glm/mat4x4.hpp>
 
@@ -32,9 +33,10 @@ struct RowRange {
 Status resample_rows(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume, const Lattice& lattice,
                      RowRange rows, BitVolumeView out);
 
-/// resample_rows() of all rows, shared by `threads` threads. Hosted. Throws what std::jthread throws.
+/// resample_rows() of all rows, shared by `threads` threads. Hosted. Throws what std::jthread throws. Cancelled: `stop`
+/// was requested, and some rows are not made.
 Status resample(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume, const Lattice& lattice,
-                BitVolumeView out, unsigned threads = 1);
+                BitVolumeView out, unsigned threads = 1, const std::stop_token& stop = {});
 
 /// The threshold that parts `values` into two groups, each as uniform as can be: Otsu (1979), A threshold selection
 /// method from gray-level histograms, over 256 steps from the least to the most value. What is at least the threshold

@@ -20,10 +20,11 @@ inline glm::dvec3 mapped(const glm::dmat4& map, const glm::dvec3& point) {
     return {part(0), part(1), part(2)};
 }
 
-/// Whether `at`, in voxels, is within the volume: at most half a voxel beyond the outer centres.
+/// Whether `at`, in voxels, is within the volume: at most half a voxel beyond the outer centres, and where
+/// nearest_voxel() finds a voxel: the sum may round up to the side.
 inline bool is_within(const SampledVolume& volume, const glm::dvec3& at) {
-    return at.x >= -0.5 && at.x < volume.nx - 0.5 && at.y >= -0.5 && at.y < volume.ny - 0.5 && at.z >= -0.5 &&
-           at.z < volume.nz - 0.5;
+    const auto along = [](double place, std::uint32_t side) { return place >= -0.5 && place + 0.5 < side; };
+    return along(at.x, volume.nx) && along(at.y, volume.ny) && along(at.z, volume.nz);
 }
 
 /// The voxel nearest to `at`, which is within the volume; of two that are equally near, the further one.

@@ -104,7 +104,7 @@ TEST_CASE("pictures and volumes cut short or of absurd size are refused in one l
     const Folder folder;
     const std::string globe = read_file(kExamples + "globe.png");
     CHECK_THAT(refusal("spherical:" + folder.file("cut.png", globe.substr(0, globe.size() / 2))),
-               Contains("cut.png: the PNG cannot be decoded"));
+               Contains("cut.png: the picture cannot be read"));
     std::string huge = globe;
     huge[16] = '\x7f';
     CHECK_THAT(refusal("spherical:" + folder.file("huge.png", huge)), Contains("pixels are too many"));

@@ -89,6 +89,16 @@ TEST_CASE("volumes that lie turned keep their shape", "[cli]") {
                Catch::Contains("askew"));
 }
 
+TEST_CASE("a small volume that would be huge when it is straightened is refused", "[cli]") {
+    const Folder folder;
+    const std::string askew =
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1 1 1\nspace: right-anterior-superior\n"
+        "space directions: (1000,1000,1000) (1,-1,0) (0,1,-1)\nencoding: raw\n\n\1";
+    refused({"convert", folder.file("askew.nrrd", askew), folder.path("out.nrrd")},
+            {"askew.nrrd", "lies askew", "1 × 1 × 1 voxels become"});
+    CHECK_FALSE(std::filesystem::exists(folder.path("out.nrrd")));
+}
+
 TEST_CASE("volumes cut short, absurd or unknown are refused, and nothing is written", "[cli]") {
     const Folder folder;
     const std::string out = folder.path("out.nrrd");

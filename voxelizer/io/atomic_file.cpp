@@ -57,13 +57,12 @@ bool link_to(int descriptor, const std::string& name) {
     return ::linkat(AT_FDCWD, name_of_descriptor(descriptor).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
 }
 
-// A new file without a name in the folder of `target`, or -1 where that cannot be or could not be named later.
-int open_unnamed(const std::string& target) {
+// A new file without a name in the folder of `target`; none where that cannot be or could not be named later.
+Descriptor open_unnamed(const std::string& target) {
     const std::string folder = std::filesystem::path(target).parent_path().string();
-    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-    if (descriptor < 0 || ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) return descriptor;
-    ::close(descriptor);
-    return -1;
+    Descriptor file(::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
+    if (::access(name_of_descriptor(file.number()).c_str(), F_OK) != 0) file.close();
+    return file;
 }
 
 }  // namespace
@@ -72,25 +71,27 @@ Expected<AtomicFile> AtomicFile::create(const std::string& path) {
     std::string shown = printable_name(path);
     auto target = resolve(path, shown);
     if (!target) return tl::unexpected(std::move(target.error()));
-    if (const int descriptor = open_unnamed(*target); descriptor >= 0) {
-        return AtomicFile(std::move(shown), std::move(*target), {}, descriptor);
+    if (Descriptor file = open_unnamed(*target); file.number() >= 0) {
+        return AtomicFile(std::move(shown), std::move(*target), {}, std::move(file));
     }
     for (unsigned attempt = 0;; ++attempt) {
         std::string name = temporary_name(*target, attempt);
-        const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0) return AtomicFile(std::move(shown), std::move(*target), std::move(name), descriptor);
+        Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+        if (file.number() >= 0) {
+            return AtomicFile(std::move(shown), std::move(*target), std::move(name), std::move(file));
+        }
         if (errno != EEXIST) return cannot_create(shown, errno);
     }
 }
 
-AtomicFile::AtomicFile(std::string shown, std::string target, std::string name, int descriptor)
-    : shown_(std::move(shown)), target_(std::move(target)), name_(std::move(name)), descriptor_(descriptor) {}
+AtomicFile::AtomicFile(std::string shown, std::string target, std::string name, Descriptor file)
+    : shown_(std::move(shown)), target_(std::move(target)), name_(std::move(name)), file_(std::move(file)) {}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : shown_(std::move(other.shown_)),
       target_(std::move(other.target_)),
       name_(std::exchange(other.name_, {})),
-      descriptor_(std::exchange(other.descriptor_, -1)) {}
+      file_(std::move(other.file_)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
     if (this != &other) {
@@ -98,7 +99,7 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
         shown_ = std::move(other.shown_);
         target_ = std::move(other.target_);
         name_ = std::exchange(other.name_, {});
-        descriptor_ = std::exchange(other.descriptor_, -1);
+        file_ = std::move(other.file_);
     }
     return *this;
 }
@@ -108,14 +109,14 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::discard() noexcept {
-    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+    file_.close();
     if (!name_.empty()) ::unlink(name_.c_str());
     name_.clear();
 }
 
 Expected<void> AtomicFile::write(std::string_view bytes) {
     while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        const ssize_t written = ::write(file_.number(), bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) return cannot_write(shown_, errno);
         bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -126,7 +127,7 @@ Expected<void> AtomicFile::write(std::string_view bytes) {
 // Gives the unnamed file the name of its target, or a temporary one when that is taken: linkat() replaces nothing.
 Expected<void> AtomicFile::take_name() {
     std::string name = target_;
-    for (unsigned attempt = 0; !link_to(descriptor_, name); ++attempt) {
+    for (unsigned attempt = 0; !link_to(file_.number(), name); ++attempt) {
         if (errno != EEXIST) return cannot_create(shown_, errno);
         name = temporary_name(target_, attempt);
     }
@@ -138,7 +139,7 @@ Expected<void> AtomicFile::commit() {
     if (name_.empty()) {
         if (auto ok = take_name(); !ok) return ok;
     }
-    if (::close(std::exchange(descriptor_, -1)) != 0) return cannot_write(shown_, errno);
+    if (file_.close() != 0) return cannot_write(shown_, errno);
     if (name_ != target_ && ::rename(name_.c_str(), target_.c_str()) != 0) return cannot_create(shown_, errno);
     name_.clear();
     return {};

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "voxelizer/error.h"
+#include "voxelizer/io/descriptor.h"
 
 namespace xorvox::io {
 
@@ -35,14 +36,14 @@ public:
     Expected<void> commit();
 
 private:
-    AtomicFile(std::string shown, std::string target, std::string name, int descriptor);
+    AtomicFile(std::string shown, std::string target, std::string name, Descriptor file);
     Expected<void> take_name();
     void discard() noexcept;
 
     std::string shown_;   // The path as messages have it.
     std::string target_;  // The path with links followed.
     std::string name_;    // The temporary one; empty when there is none to remove.
-    int descriptor_ = -1;
+    Descriptor file_;
 };
 
 /// Writes `bytes` to `path` by an AtomicFile: everything, or an error and nothing.

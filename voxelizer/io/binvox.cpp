@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
 
+#include "voxelizer/io/memory.h"
 #include "voxelizer/io/text_scanner.h"
 #include "voxelizer/io/volume_reader.h"
 #include "voxelizer/io/voxel_numbers.h"
@@ -138,6 +139,7 @@ Expected<VolumeSequence> parse_binvox(std::string_view bytes, std::string_view s
                                 header->data + at, runs.size() - at));
     }
 
+    if (auto ok = check_memory(sizeof(float) * count, source); !ok) return tl::unexpected(std::move(ok.error()));
     volume.values.resize(count);
     std::size_t n = 0;  // Of the file's order.
     for (std::size_t run = 0; run < at; run += 2) {

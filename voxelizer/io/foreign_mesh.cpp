@@ -17,10 +17,12 @@
 #include <unistd.h>
 
 #include "voxelizer/io/corner_colors.h"
+#include "voxelizer/io/descriptor.h"
 #include "voxelizer/io/file_name.h"
 #include "voxelizer/io/formats.h"
 #include "voxelizer/io/image_file.h"
 #include "voxelizer/io/import_stream.h"
+#include "voxelizer/io/model_images.h"
 #include "voxelizer/io/text_scanner.h"
 
 extern char** environ;
@@ -62,11 +64,12 @@ public:
             error_ = errno;
             return;
         }
-        output_ = pipe[0];
+        output_ = Descriptor(pipe[0]);
+        const Descriptor input(pipe[1]);
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, input.number(), STDOUT_FILENO);
         posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
         std::string name = program;
         std::string argument = path;
@@ -74,18 +77,14 @@ public:
         error_ = ::posix_spawn(&pid_, program.c_str(), &actions, nullptr, arguments.data(), environ);
         if (error_ != 0) pid_ = -1;
         posix_spawn_file_actions_destroy(&actions);
-        ::close(pipe[1]);
     }
-    ~Child() {
-        end();
-        if (output_ >= 0) ::close(output_);
-    }
+    ~Child() { end(); }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
     /// Of starting it; 0: it runs.
     int error() const { return error_; }
-    int output() const { return output_; }
+    int output() const { return output_.number(); }
 
     /// Ends it, if it has not, and gives its status as waitpid() does. One that has begun to exit keeps its status.
     int end() {
@@ -100,7 +99,7 @@ public:
 
 private:
     pid_t pid_ = -1;
-    int output_ = -1;
+    Descriptor output_;
     int error_ = 0;
     int status_ = 0;
 };
@@ -165,24 +164,16 @@ Expected<ImportedModel> run(const std::string& path, const std::string& name, co
 
 Expected<std::vector<Image>> read_images(const ImportedModel& model, const std::string& name,
                                          const SideFiles& side_files) {
-    constexpr std::size_t kMostPixels = std::size_t{1} << 28;
-    std::vector<Image> images;
-    std::size_t pixels = 0;
+    ModelImages images(name);
     for (const ImportedImage& from : model.images) {
         Expected<std::string> bytes = from.bytes;
         if (from.is_name) bytes = side_files.read_by_name(from.bytes, name, kImageFile);
         if (!bytes) return tl::unexpected(std::move(bytes.error()));
-        auto image = decode_image(
-            *bytes, from.is_name ? fmt::format("{}: {}", name, quoted(from.bytes)) : name + ": an image in it");
-        if (!image) return tl::unexpected(std::move(image.error()));
-        pixels += image->pixels.size();
-        if (pixels > kMostPixels) {
-            return fail(
-                fmt::format("{}: images of more than {} pixels together; make them smaller", name, kMostPixels));
-        }
-        images.push_back(std::move(*image));
+        const auto added = images.add(decode_image(
+            *bytes, from.is_name ? fmt::format("{}: {}", name, quoted(from.bytes)) : name + ": an image in it"));
+        if (!added) return tl::unexpected(added.error());
     }
-    return images;
+    return std::move(images).take();
 }
 
 void add_colors(ImportedModel& model, const std::string& name, const SideFiles& side_files, ParsedModel& parsed) {

@@ -8,6 +8,7 @@
 #include "voxelizer/elementary.h"
 #include "voxelizer/io/formats.h"
 #include "voxelizer/io/image_file.h"
+#include "voxelizer/io/model_images.h"
 
 namespace xorvox::io {
 namespace {
@@ -139,25 +140,19 @@ Expected<std::vector<GltfMaterial>> read_gltf_materials(const tinygltf::Model& m
 Expected<std::vector<Image>> read_gltf_images(const tinygltf::Model& model, const GltfData& data,
                                               std::string_view source, const SideFiles& side_files,
                                               std::vector<SurfaceMaterial>& used) {
-    std::vector<Image> images;
+    ModelImages images(source);
     std::vector<std::uint32_t> new_number(model.images.size(), SurfaceMaterial::kNoImage);
-    std::size_t pixels = 0;
     for (SurfaceMaterial& material : used) {
         if (material.image == SurfaceMaterial::kNoImage) continue;
         std::uint32_t& number = new_number[material.image];
         if (number == SurfaceMaterial::kNoImage) {
-            auto image = read_image_of(model, data, material.image, source, side_files);
-            if (!image) return tl::unexpected(std::move(image.error()));
-            pixels += image->pixels.size();
-            if (pixels > kMostGltfPixels) {
-                return data.refuse(fmt::format("images of more than {} pixels together", kMostGltfPixels));
-            }
-            number = static_cast<std::uint32_t>(images.size());
-            images.push_back(std::move(*image));
+            const auto added = images.add(read_image_of(model, data, material.image, source, side_files));
+            if (!added) return tl::unexpected(added.error());
+            number = *added;
         }
         material.image = number;
     }
-    return images;
+    return std::move(images).take();
 }
 
 }  // namespace xorvox::io

@@ -22,7 +22,6 @@ namespace xorvox::io {
 inline constexpr std::size_t kMostGltfTriangles = std::size_t{1} << 24;
 inline constexpr std::size_t kMostGltfVertices = std::size_t{1} << 25;
 inline constexpr std::size_t kMostGltfKeys = std::size_t{1} << 24;
-inline constexpr std::size_t kMostGltfPixels = std::size_t{1} << 28;
 /// Elements of accessors without a buffer view, which are zeros that no byte stands for.
 inline constexpr std::size_t kMostGltfBlanks = std::size_t{1} << 18;
 /// Each buffer of a GLB may be a copy of its binary chunk.
@@ -61,7 +60,7 @@ public:
 
 private:
     struct Elements {
-        const char* first = nullptr;  ///< Null: zeros.
+        const char* first = nullptr;
         std::size_t stride = 0;
     };
     Expected<const tinygltf::Accessor*> accessor(int number, std::size_t most_elements) const;

@@ -10,6 +10,7 @@ namespace xorvox::io {
 namespace {
 
 constexpr int kGzip = 16 + MAX_WBITS;
+constexpr std::size_t kMostRatio = 1032;
 
 /// A z_stream that ends with its scope.
 class Inflater {
@@ -34,26 +35,27 @@ struct Inflated {
 };
 
 Expected<Inflated> run(std::string_view packed, std::size_t most, std::string_view source, std::size_t first_byte) {
-    constexpr std::size_t kPiece = std::size_t{1} << 30;  // zlib counts in 32 bits.
+    constexpr std::size_t kMostIn = std::size_t{1} << 30;  // zlib counts in 32 bits.
+    constexpr std::size_t kMostOut = std::size_t{1} << 16;
     Inflater inflater;
     if (!inflater.ready()) return fail(fmt::format("{}: not enough memory to unpack it", source));
     z_stream& stream = inflater.stream();
     Inflated result;
+    result.bytes.reserve(std::min(most + 1, kMostRatio * packed.size()));
+    std::string buffer(kMostOut, '\0');  // Of its own: a pass may give nothing, as that of an empty member.
     std::size_t read = 0;
     for (;;) {
-        const std::size_t size = result.bytes.size();
-        // Grown as bytes come; one beyond the most tells whether there are more.
-        const std::size_t room = std::min({most + 1 - size, std::max<std::size_t>(size, 1 << 16), kPiece});
-        result.bytes.resize(size + room);
-        const std::size_t piece = std::min(packed.size() - read, kPiece);
+        // One beyond the most tells whether there are more.
+        const std::size_t room = std::min(most + 1 - result.bytes.size(), kMostOut);
+        const std::size_t piece = std::min(packed.size() - read, kMostIn);
         // zlib does not write through next_in.
         stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + read));
         stream.avail_in = static_cast<uInt>(piece);
-        stream.next_out = reinterpret_cast<Bytef*>(result.bytes.data() + size);
+        stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
         stream.avail_out = static_cast<uInt>(room);
         const int answer = ::inflate(&stream, Z_NO_FLUSH);
         read += piece - stream.avail_in;
-        result.bytes.resize(size + room - stream.avail_out);
+        result.bytes.append(buffer, 0, room - stream.avail_out);
         if (answer == Z_STREAM_END) {
             // Files of several members, as parallel packers write them, are their bytes one after the other.
             if (packed.substr(read).starts_with("\x1f\x8b") && result.bytes.size() <= most) {
@@ -78,7 +80,6 @@ Expected<Inflated> run(std::string_view packed, std::size_t most, std::string_vi
 }  // namespace
 
 bool can_inflate_to(std::string_view packed, std::size_t bytes) {
-    constexpr std::size_t kMostRatio = 1032;
     return bytes / kMostRatio <= packed.size();
 }
 

@@ -84,8 +84,7 @@ private:
 
 }  // namespace
 
-Expected<Image> decode_jpeg(std::string_view bytes, std::string_view source,
-                            const std::function<Expected<void>(ImageSize)>& check) {
+Expected<Image> decode_jpeg(std::string_view bytes, std::string_view source, const CheckImageSize& check) {
     Decoder decoder(bytes);
     const auto failed = [&] {
         return fail(

@@ -11,6 +11,7 @@
 
 #include "voxelizer/io/inflate.h"
 #include "voxelizer/io/load.h"
+#include "voxelizer/io/memory.h"
 #include "voxelizer/io/text_scanner.h"
 #include "voxelizer/io/volume_reader.h"
 #include "voxelizer/io/voxel_numbers.h"
@@ -129,11 +130,14 @@ public:
     /// Of the whole file, unpacked.
     std::size_t file_bytes() const { return first_ + frame_bytes_ * frames_; }
 
+    std::size_t value_bytes() const { return sizeof(float) * volume_.voxel_count() * frames_; }
+
     Expected<VolumeSequence> volumes(std::string_view bytes) const {
         if (bytes.size() < file_bytes()) {
             return wrong(bytes.size(),
                          fmt::format("the file is cut short; its header announces {} bytes", file_bytes()));
         }
+        if (auto ok = check_memory(value_bytes(), source_); !ok) return tl::unexpected(std::move(ok.error()));
         VolumeSequence sequence;
         for (std::size_t frame = 0; frame < frames_; ++frame) {
             SampledVolume volume = volume_;
@@ -175,9 +179,8 @@ private:
             return wrong(where, fmt::format("{} dimensions; three of space and one of time are read", dim[0]));
         }
         if (auto ok = check_sides(sides[0], sides[1], sides[2], source_, fmt::format("byte {}", where)); !ok) return ok;
-        constexpr std::uint64_t kMostFrames = 65536;
-        if (sides[3] > kMostFrames) {
-            return wrong(where, fmt::format("{} frames; at most {} are read", sides[3], kMostFrames));
+        if (sides[3] > kMaxVolumeFrames) {
+            return wrong(where, fmt::format("{} frames; at most {} are read", sides[3], kMaxVolumeFrames));
         }
         volume_.nx = static_cast<std::uint32_t>(sides[0]);
         volume_.ny = static_cast<std::uint32_t>(sides[1]);
@@ -330,6 +333,9 @@ Expected<VolumeSequence> parse_nifti(std::string_view bytes, std::string_view so
     if (!can_inflate_to(bytes, reader.file_bytes())) {
         return fail(fmt::format("{}: {} bytes of gzip data cannot hold the {} bytes that the header announces", source,
                                 bytes.size(), reader.file_bytes()));
+    }
+    if (auto ok = check_memory(reader.file_bytes() + reader.value_bytes(), source); !ok) {
+        return tl::unexpected(std::move(ok.error()));
     }
     const auto all = inflate_gzip(bytes, reader.file_bytes(), source);
     if (!all) return tl::unexpected(all.error());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "voxelizer/io/inflate.h"
+#include "voxelizer/io/memory.h"
 #include "voxelizer/io/nrrd_header.h"
 #include "voxelizer/io/text_scanner.h"
 #include "voxelizer/io/volume_reader.h"
@@ -36,7 +37,11 @@ Expected<std::string_view> voxel_bytes(const NrrdHeader& header, std::string_vie
     if (skip > kMaxVolumeFileBytes || size > kMaxVolumeFileBytes) {
         return fail(fmt::format("{}: more than {} bytes of data", source, kMaxVolumeFileBytes));
     }
+    const std::size_t value_bytes = sizeof(float) * header.nx * header.ny * header.nz * header.frames;
     if (header.gzip) {
+        if (can_inflate_to(rest, skip + size)) {  // Else inflate_gzip_exactly() says so.
+            if (auto ok = check_memory(skip + size + value_bytes, source); !ok) return tl::unexpected(ok.error());
+        }
         auto all = inflate_gzip_exactly(rest, skip + size, source, *begin);
         if (!all) return tl::unexpected(std::move(all.error()));
         unpacked = std::move(*all);
@@ -46,6 +51,7 @@ Expected<std::string_view> voxel_bytes(const NrrdHeader& header, std::string_vie
         return fail(fmt::format("{}: byte {}: the file is cut short: {} bytes of voxels from byte {} on are announced",
                                 source, bytes.size(), size, *begin + skip));
     }
+    if (auto ok = check_memory(value_bytes, source); !ok) return tl::unexpected(ok.error());
     return rest.substr(header.byte_skip < 0 ? rest.size() - size : skip, size);
 }
 
@@ -101,11 +107,12 @@ Expected<VolumeSequence> parse_nrrd(std::string_view bytes, std::string_view sou
         return fail(fmt::format("{}: its data are in the file {}; name the header by its path", source,
                                 quoted(header->data_file)));
     }
-    const auto data = read_data_file(header->data_file);
+    auto data = read_data_file(header->data_file);
     if (!data) return tl::unexpected(data.error());
     const std::string data_source = fmt::format("{}: data file {}", source, quoted(header->data_file));
     const auto voxels = voxel_bytes(*header, *data, 0, data_source, unpacked);
     if (!voxels) return tl::unexpected(voxels.error());
+    if (header->gzip) std::string().swap(*data);  // The values need the room.
     return volumes_of(*header, *voxels, source);
 }
 

@@ -10,87 +10,12 @@
 
 #include <fmt/format.h>
 
+#include "voxelizer/io/nrrd_names.h"
 #include "voxelizer/io/text_scanner.h"
+#include "voxelizer/io/volume_reader.h"
 
 namespace xorvox::io {
 namespace {
-
-// Fields that say nothing about what is where.
-constexpr std::array<std::string_view, 17> kPassedOver{
-    "number",    "min",         "max",         "old min",    "oldmin",
-    "old max",   "oldmax",      "thicknesses", "axis mins",  "axismins",
-    "axis maxs", "axismaxs",    "centers",     "centerings", "measurement frame",
-    "labels",    "sample units"};
-constexpr std::array<std::string_view, 18> kUsed{
-    "content",         "dimension",   "type",         "block size",       "blocksize", "encoding",
-    "endian",          "kinds",       "sizes",        "spacings",         "space",     "units",
-    "space dimension", "space units", "space origin", "space directions", "data file", "datafile"};
-constexpr std::array<std::string_view, 4> kSkips{"line skip", "lineskip", "byte skip", "byteskip"};
-
-struct TypeName {
-    std::string_view name;
-    NumberType type;
-};
-constexpr TypeName kTypes[] = {
-    {"signed char", NumberType::Int8},
-    {"int8", NumberType::Int8},
-    {"int8_t", NumberType::Int8},
-    {"uchar", NumberType::UInt8},
-    {"unsigned char", NumberType::UInt8},
-    {"uint8", NumberType::UInt8},
-    {"uint8_t", NumberType::UInt8},
-    {"short", NumberType::Int16},
-    {"short int", NumberType::Int16},
-    {"signed short", NumberType::Int16},
-    {"signed short int", NumberType::Int16},
-    {"int16", NumberType::Int16},
-    {"int16_t", NumberType::Int16},
-    {"ushort", NumberType::UInt16},
-    {"unsigned short", NumberType::UInt16},
-    {"unsigned short int", NumberType::UInt16},
-    {"uint16", NumberType::UInt16},
-    {"uint16_t", NumberType::UInt16},
-    {"int", NumberType::Int32},
-    {"signed int", NumberType::Int32},
-    {"int32", NumberType::Int32},
-    {"int32_t", NumberType::Int32},
-    {"uint", NumberType::UInt32},
-    {"unsigned int", NumberType::UInt32},
-    {"uint32", NumberType::UInt32},
-    {"uint32_t", NumberType::UInt32},
-    {"longlong", NumberType::Int64},
-    {"long long", NumberType::Int64},
-    {"long long int", NumberType::Int64},
-    {"signed long long", NumberType::Int64},
-    {"signed long long int", NumberType::Int64},
-    {"int64", NumberType::Int64},
-    {"int64_t", NumberType::Int64},
-    {"ulonglong", NumberType::UInt64},
-    {"unsigned long long", NumberType::UInt64},
-    {"unsigned long long int", NumberType::UInt64},
-    {"uint64", NumberType::UInt64},
-    {"uint64_t", NumberType::UInt64},
-    {"float", NumberType::Float32},
-    {"double", NumberType::Float64},
-};
-
-// What turns an anatomical space into right-anterior-superior, axis by axis.
-struct SpaceName {
-    std::string_view name;
-    std::string_view abbreviation;
-    glm::dvec3 turn;
-};
-constexpr SpaceName kSpaces[] = {
-    {"right-anterior-superior", "ras", {1, 1, 1}},
-    {"left-anterior-superior", "las", {-1, 1, 1}},
-    {"left-posterior-superior", "lps", {-1, -1, 1}},
-    {"scanner-xyz", "", {1, 1, 1}},
-    {"3d-right-handed", "", {1, 1, 1}},
-};
-
-constexpr std::pair<std::string_view, double> kUnits[] = {
-    {"mm", 1.0},  {"cm", 10.0}, {"m", 1000.0}, {"um", 1e-3},     {"µm", 1e-3},
-    {"nm", 1e-6}, {"in", 25.4}, {"", 1.0},     {"micron", 1e-3}, {"microns", 1e-3}};
 
 std::string lower(std::string_view text) {
     std::string result(text);
@@ -180,8 +105,9 @@ private:
             return wrong(line_, fmt::format("{} is no field, as in \"type: float\"", quoted(text)));
         }
         std::string name = lower(text.substr(0, colon));
-        if (std::ranges::find(kPassedOver, name) != kPassedOver.end()) return {};
-        if (std::ranges::find(kUsed, name) == kUsed.end() && std::ranges::find(kSkips, name) == kSkips.end()) {
+        if (std::ranges::find(nrrd::kPassedOver, name) != nrrd::kPassedOver.end()) return {};
+        if (std::ranges::find(nrrd::kUsed, name) == nrrd::kUsed.end() &&
+            std::ranges::find(nrrd::kSkips, name) == nrrd::kSkips.end()) {
             return wrong(line_, fmt::format("the field {} is not known to NRRD", quoted(name)));
         }
         Field value{std::string(trimmed(text.substr(colon + 1))), line_};
@@ -220,9 +146,8 @@ private:
             for (std::size_t i = 0; i < axes_; ++i) kinds_[i] = lower(names[i]);
         }
         if (axes_ == 4 && kinds_[3] == "time") {
-            constexpr std::int64_t kMostFrames = 65536;
-            if (n[3] > kMostFrames) {
-                return wrong(sizes->line, fmt::format("{} frames; at most {} are read", n[3], kMostFrames));
+            if (static_cast<std::uint64_t>(n[3]) > kMaxVolumeFrames) {
+                return wrong(sizes->line, fmt::format("{} frames; at most {} are read", n[3], kMaxVolumeFrames));
             }
             header_.frames = static_cast<std::uint32_t>(n[3]);
         } else if (axes_ == 4) {
@@ -249,8 +174,8 @@ private:
     Expected<void> format() {
         const Field* const type = find("type");
         if (type == nullptr) return missing("type");
-        const auto* known = std::ranges::find(kTypes, lower(type->value), &TypeName::name);
-        if (known == std::end(kTypes)) {
+        const auto* known = std::ranges::find(nrrd::kTypes, lower(type->value), &nrrd::TypeName::name);
+        if (known == std::end(nrrd::kTypes)) {
             return wrong(type->line, fmt::format("the type {} is not read; int8 to uint64, float and double are",
                                                  quoted(type->value)));
         }
@@ -292,11 +217,8 @@ private:
             }
         }
         if (const Field* const file = find("data file", "datafile")) {
-            if (file->value.empty() || file->value.find('/') != std::string::npos ||
-                file->value.find('\\') != std::string::npos || file->value == ".." || file->value == "." ||
-                file->value.find('%') != std::string::npos || file->value.starts_with("LIST")) {
-                return wrong(file->line, fmt::format("the data file is {}; one file in the header's own folder is "
-                                                     "read, no list, pattern or other folder",
+            if (file->value.empty() || file->value.find('%') != std::string::npos || file->value.starts_with("LIST")) {
+                return wrong(file->line, fmt::format("the data file is {}; one file is read, no list or pattern",
                                                      quoted(file->value)));
             }
             header_.data_file = file->value;
@@ -331,7 +253,7 @@ private:
     Expected<glm::dvec3> space_turn() const {
         if (const Field* const space = find("space")) {
             const std::string name = lower(space->value);
-            for (const SpaceName& known : kSpaces) {
+            for (const nrrd::SpaceName& known : nrrd::kSpaces) {
                 if (name == known.name || (name == known.abbreviation && !name.empty())) return known.turn;
             }
             return wrong(space->line, fmt::format("the space {} is not read; right-anterior-superior, "
@@ -357,8 +279,8 @@ private:
             text = trimmed(text);
             const std::size_t end = text.starts_with('"') ? text.find('"', 1) : std::string_view::npos;
             const std::string_view unit = end == std::string_view::npos ? "?" : text.substr(1, end - 1);
-            const auto* known = std::ranges::find(kUnits, unit, [](const auto& entry) { return entry.first; });
-            if (known == std::end(kUnits)) {
+            const auto* known = std::ranges::find(nrrd::kUnits, unit, [](const auto& entry) { return entry.first; });
+            if (known == std::end(nrrd::kUnits)) {
                 return wrong(units->line, fmt::format("the space units are {}; three of \"mm\", \"cm\", \"m\", "
                                                       "\"um\", \"nm\" and \"in\" are read, in quotes",
                                                       quoted(units->value)));

@@ -7,13 +7,13 @@
 
 #include "voxelizer/io/formats.h"
 #include "voxelizer/io/image_file.h"
+#include "voxelizer/io/model_images.h"
 #include "voxelizer/io/text_scanner.h"
 
 namespace xorvox::io {
 namespace {
 
 constexpr FileKind kMaterialFile{"a material file", std::size_t{64} << 20, "remove what no face uses"};
-constexpr std::size_t kMostPixels = std::size_t{1} << 28;  // Of all images of a model.
 
 bool is_color(const glm::dvec3& c) {
     return c.r >= 0.0 && c.r <= 1.0 && c.g >= 0.0 && c.g <= 1.0 && c.b >= 0.0 && c.b <= 1.0;
@@ -99,8 +99,8 @@ Expected<void> ObjColors::read_materials(std::string_view source, const SideFile
         if (auto ok = parse_mtl(*text, fmt::format("{}: {}", source, quoted(library)), known); !ok) return ok;
     }
     colors.materials.resize(materials_.size());
+    ModelImages images(source);
     std::map<std::string, std::uint32_t, std::less<>> numbers;
-    std::size_t pixels = 0;
     for (const auto& [name, number] : materials_) {
         if (number == 0) continue;
         const auto found = known.find(name);
@@ -113,21 +113,17 @@ Expected<void> ObjColors::read_materials(std::string_view source, const SideFile
         material.factor = from.factor;
         material.wrap_u = material.wrap_v = from.clamped ? TextureWrap::Clamp : TextureWrap::Repeat;
         if (from.image.empty()) continue;
-        const auto [image_number, is_new] =
-            numbers.try_emplace(from.image, static_cast<std::uint32_t>(colors.images.size()));
-        material.image = image_number->second;
-        if (!is_new) continue;
-        const auto bytes = side_files.read_by_name(from.image, source, kImageFile);
-        if (!bytes) return tl::unexpected(bytes.error());
-        auto image = decode_image(*bytes, fmt::format("{}: {}", source, quoted(from.image)));
-        if (!image) return tl::unexpected(std::move(image.error()));
-        pixels += image->pixels.size();
-        if (pixels > kMostPixels) {
-            return fail(
-                fmt::format("{}: images of more than {} pixels together; make them smaller", source, kMostPixels));
+        const auto [image_number, is_new] = numbers.try_emplace(from.image, 0);
+        if (is_new) {
+            const auto bytes = side_files.read_by_name(from.image, source, kImageFile);
+            if (!bytes) return tl::unexpected(bytes.error());
+            const auto added = images.add(decode_image(*bytes, fmt::format("{}: {}", source, quoted(from.image))));
+            if (!added) return tl::unexpected(added.error());
+            image_number->second = *added;
         }
-        colors.images.push_back(std::move(*image));
+        material.image = image_number->second;
     }
+    colors.images = std::move(images).take();
     return {};
 }
 

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 #include <png.h>
 
 #include "voxelizer/io/inflate.h"
+#include "voxelizer/io/load.h"
+#include "voxelizer/io/memory.h"
 #include "voxelizer/sampled_volume.h"
 
 // libpng answers errors by longjmp: functions that call setjmp here make no object with a destructor.
@@ -49,18 +52,19 @@ public:
     Decoder(const Decoder&) = delete;
     Decoder& operator=(const Decoder&) = delete;
 
-    bool begin() {
+    /// As a picture in sRGB with opacity, or with the file's own numbers where these are grey.
+    enum class Pixels : std::uint8_t { Colors, Numbers };
+
+    bool begin(Pixels pixels) {
         if (info_ == nullptr) {
             std::strncpy(message_, "not enough memory", kMessageBytes - 1);
             return false;
         }
         if (setjmp(png_jmpbuf(png_))) return false;
-        constexpr png_uint_32 kMostSide = SampledVolume::kMostSide;
-        png_set_user_limits(png_, kMostSide, kMostSide);
         png_read_info(png_, info_);
         const int type = png_get_color_type(png_, info_);
         const bool transparent = png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
-        grey_ = type == PNG_COLOR_TYPE_GRAY && !transparent;
+        grey_ = pixels == Pixels::Numbers && type == PNG_COLOR_TYPE_GRAY && !transparent;
         bits_ = png_get_bit_depth(png_, info_);
         if (grey_) {
             if (bits_ == 1) png_set_packing(png_);
@@ -72,6 +76,7 @@ public:
             png_set_filler(png_, 0xff, PNG_FILLER_AFTER);
             bits_ = 8;
         }
+        if (pixels == Pixels::Colors) png_set_alpha_mode(png_, PNG_ALPHA_PNG, PNG_DEFAULT_sRGB);
         passes_ = png_set_interlace_handling(png_);
         png_read_update_info(png_, info_);
         return true;
@@ -104,6 +109,26 @@ private:
     int passes_ = 1;
 };
 
+tl::unexpected<Error> unreadable(std::string_view source, std::string_view what) {
+    return fail(fmt::format("{}: the picture cannot be read: {}; save it again", source, what));
+}
+
+// Before libpng sees them: sizes that are no picture's, and those that the bytes cannot become.
+Expected<void> check_header(std::string_view bytes, std::string_view source, const CheckImageSize& check) {
+    constexpr std::size_t kHeader = 8 + 4 + 4 + 13;  // signature, then IHDR's length, name and content
+    if (bytes.size() < kHeader || bytes.substr(12, 4) != "IHDR") return unreadable(source, "it has no whole header");
+    const ImageSize size{load<std::uint32_t>(bytes.data() + 16, std::endian::big),
+                         load<std::uint32_t>(bytes.data() + 20, std::endian::big)};
+    if (size.width == 0 || size.height == 0) {
+        return fail(fmt::format("{}: {} × {} pixels are no picture; save it again", source, size.width, size.height));
+    }
+    if (auto ok = check(size); !ok) return ok;
+    // A row of a picture of one bit a pixel, with the byte that says how it is filtered.
+    if (can_inflate_to(bytes, std::size_t{size.height} * (1 + (std::size_t{size.width} + 7) / 8))) return {};
+    return fail(fmt::format("{}: {} bytes cannot hold {} × {} pixels; save the picture again", source, bytes.size(),
+                            size.width, size.height));
+}
+
 void append_bytes(png_structp png, png_bytep from, std::size_t size) {
     auto* const to = static_cast<std::string*>(png_get_io_ptr(png));
     to->append(reinterpret_cast<const char*>(from), size);
@@ -125,22 +150,35 @@ bool write_bits(png_structp png, png_infop info, std::uint32_t width, std::uint3
 }  // namespace
 
 Expected<PngPicture> parse_png(std::string_view bytes, std::string_view source) {
-    const auto wrong = [source](const char* what) {
-        return fail(fmt::format("{}: the picture cannot be read: {}; write it again", source, what));
+    const auto size_fits = [source](ImageSize size) -> Expected<void> {
+        constexpr std::uint32_t kMostSide = SampledVolume::kMostSide;
+        if (size.width <= kMostSide && size.height <= kMostSide) return {};
+        return fail(fmt::format("{}: the picture has {} × {} pixels; sides are at most {}", source, size.width,
+                                size.height, kMostSide));
     };
+    if (auto ok = check_header(bytes, source, size_fits); !ok) return tl::unexpected(std::move(ok.error()));
     Decoder decoder(bytes);
-    if (!decoder.begin()) return wrong(decoder.message());
+    if (!decoder.begin(Decoder::Pixels::Numbers)) return unreadable(source, decoder.message());
     PngPicture picture;
     picture.width = decoder.width();
     picture.height = decoder.height();
     picture.bits = decoder.bits();
     picture.channels = decoder.grey() ? 1 : 4;
-    const std::size_t size = decoder.row_bytes() * picture.height;
-    // A pixel of a packed palette becomes at most 32 times as large.
-    if (!can_inflate_to(bytes, size / 32)) return wrong("it is larger than its bytes can hold");
-    picture.bytes.resize(size);
-    if (!decoder.read_rows(picture.bytes.data())) return wrong(decoder.message());
+    const std::size_t row_bytes = decoder.row_bytes();
+    if (auto ok = check_memory(row_bytes * picture.height, source); !ok) return tl::unexpected(std::move(ok.error()));
+    picture.bytes.resize(row_bytes * picture.height);
+    if (!decoder.read_rows(picture.bytes.data())) return unreadable(source, decoder.message());
     return picture;
+}
+
+Expected<Image> decode_png(std::string_view bytes, std::string_view source, const CheckImageSize& check) {
+    if (auto ok = check_header(bytes, source, check); !ok) return tl::unexpected(std::move(ok.error()));
+    Decoder decoder(bytes);
+    if (!decoder.begin(Decoder::Pixels::Colors)) return unreadable(source, decoder.message());
+    Image image{decoder.width(), decoder.height(), {}};
+    image.pixels.resize(std::size_t{image.width} * image.height);
+    if (!decoder.read_rows(image.pixels.data()->data())) return unreadable(source, decoder.message());
+    return image;
 }
 
 Expected<std::string> encode_png_bits(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t>& rows) {

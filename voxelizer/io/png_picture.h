@@ -1,4 +1,5 @@
-// A picture of a stack: PNG with the numbers that are in it, whatever they mean. Private to voxelizer/io.
+// PNG by libpng: as a picture in colours, or with the numbers that are in it, whatever they mean. Private to
+// voxelizer/io.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,8 @@
 #include <vector>
 
 #include "voxelizer/error.h"
+#include "voxelizer/image.h"
+#include "voxelizer/io/image_size.h"
 
 namespace xorvox::io {
 
@@ -21,6 +24,10 @@ struct PngPicture {
 
 /// Reads a PNG file. Sides are at most SampledVolume::kMostSide.
 Expected<PngPicture> parse_png(std::string_view bytes, std::string_view source);
+
+/// The picture in `bytes`, in sRGB: 16 bits a channel become 8, and a gamma that the file states becomes 1/2.2.
+/// `check` is asked for its size before memory is taken for it. Throws std::bad_alloc.
+Expected<Image> decode_png(std::string_view bytes, std::string_view source, const CheckImageSize& check);
 
 /// A PNG file of one bit a pixel. `rows` has ⌈width / 8⌉ bytes a row, the upper row first, the leftmost pixel in the
 /// highest bit. Equal pixels give equal bytes.

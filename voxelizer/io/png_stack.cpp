@@ -11,6 +11,7 @@
 #include "voxelizer/io/file_name.h"
 #include "voxelizer/io/image_file.h"
 #include "voxelizer/io/load.h"
+#include "voxelizer/io/memory.h"
 #include "voxelizer/io/png_picture.h"
 #include "voxelizer/io/read_file.h"
 #include "voxelizer/io/volume_reader.h"
@@ -47,6 +48,8 @@ public:
     Expected<void> add(PngPicture picture, const std::string& source, std::size_t count) {
         if (volume_.nx == 0) {
             if (auto ok = check_sides(picture.width, picture.height, count, name_, "stack"); !ok) return ok;
+            const std::uint64_t pixels = std::uint64_t{picture.width} * picture.height;
+            if (auto ok = check_memory(sizeof(float) * pixels * count, name_); !ok) return ok;
             volume_.nx = picture.width;
             volume_.ny = picture.height;
             bits_ = picture.bits;

@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "voxelizer/io/descriptor.h"
+
 namespace xorvox::io {
 namespace {
 
@@ -20,20 +22,6 @@ tl::unexpected<Error> too_long(const std::string& name, const FileKind& kind) {
     return fail(
         fmt::format("{}: longer than {} bytes, the most that is read; {}", name, kind.most_bytes, kind.shorten));
 }
-
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
 
 }  // namespace
 

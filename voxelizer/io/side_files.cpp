@@ -38,8 +38,8 @@ SideFiles::SideFiles(const std::string& model_path) : any_(true) {
 Expected<std::string> SideFiles::read(std::string_view mention, std::string_view source, const FileKind& kind) const {
     const char* wrong = any_ ? forbidden(mention) : "is another file";
     if (wrong) {
-        return fail(fmt::format("{}: names {}, which {}; only files beside the model are read", source, quoted(mention),
-                                wrong));
+        return fail(
+            fmt::format("{}: names {}, which {}; only files beside it are read", source, quoted(mention), wrong));
     }
     const std::string path = folder_ + std::string(mention);
     struct stat info {};

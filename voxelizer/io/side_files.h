@@ -1,4 +1,4 @@
-// SideFiles: the files that a model file names: buffers, images, materials. Private to voxelizer/io.
+// SideFiles: the files that a model file names: buffers, images, materials, voxels. Private to voxelizer/io.
 #pragma once
 
 #include <string>

@@ -11,6 +11,7 @@
 
 #include "voxelizer/io/file_name.h"
 #include "voxelizer/io/read_file.h"
+#include "voxelizer/io/side_files.h"
 #include "voxelizer/io/text_scanner.h"
 
 namespace xorvox::io {
@@ -40,10 +41,8 @@ Expected<VolumeSequence> read(const std::string& path, const std::string& name) 
     if (extension == ".binvox") return parse_binvox(*bytes, name);
     if (extension == ".vox") return parse_vox(*bytes, name);
     if (extension == ".nii" || extension == ".nii.gz") return parse_nifti(*bytes, name);
-    return parse_nrrd(*bytes, name, [&path](const std::string& file) {
-        const std::string beside = (std::filesystem::path(path).parent_path() / file).string();
-        return read_file(beside, printable_name(beside), kDataFile);
-    });
+    return parse_nrrd(*bytes, name,
+                      [&](const std::string& file) { return SideFiles(path).read(file, name, kDataFile); });
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 // Thread safety: all functions may run at the same time; nothing is shared.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -32,6 +33,9 @@ namespace xorvox::io {
 
 /// The longest volume file that is read, and the longest that its data unpack to.
 inline constexpr std::uint64_t kMaxVolumeFileBytes = std::uint64_t{1} << 34;
+
+/// The most volumes of one file.
+inline constexpr std::size_t kMaxVolumeFrames = 65536;
 
 /// Whether read_volumes() would take `path` for a volume: by its name, or because it is a folder; a mesh file
 /// otherwise.
@@ -47,7 +51,8 @@ Expected<VolumeSequence> parse_vox(std::string_view bytes, std::string_view sour
 /// Unpacks gzip by itself.
 Expected<VolumeSequence> parse_nifti(std::string_view bytes, std::string_view source);
 
-/// Gives the bytes of the data file that a NRRD header names; `name` has no folder in it.
+/// Gives the bytes of the data file that a NRRD header names. `name` is as the header has it: which files may be read
+/// is decided here.
 using DataFileReader = std::function<Expected<std::string>(const std::string& name)>;
 /// `read_data_file` is asked once, when the header is detached; it may be empty, and such headers are then refused.
 Expected<VolumeSequence> parse_nrrd(std::string_view bytes, std::string_view source,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "voxelizer/io/volume_reader.h"
 #include "voxelizer/io/vox_file.h"
 #include "voxelizer/io/voxel_numbers.h"
 
@@ -108,20 +109,19 @@ private:
 
     // A small file may show its models very often.
     Expected<void> check_effort() const {
-        constexpr std::size_t kMostFrames = 65536;
         constexpr std::uint64_t kMostDrawn = std::uint64_t{1} << 30;
         std::size_t frames = instances_.empty() ? file_.models.size() : 0;
         std::uint64_t drawn = 0;
         for (const Instance& instance : instances_) {
             frames += instance.models->size();
-            if (frames > kMostFrames) break;
+            if (frames > kMaxVolumeFrames) break;
             for (const std::uint32_t model : *instance.models) drawn += file_.models[model].voxels.size() / 4 + 1;
         }
         // Where the scene puts shapes together, each frame draws all of them.
         if (are_apart()) drawn *= longest_shape();
-        if (frames <= kMostFrames && drawn <= kMostDrawn) return {};
+        if (frames <= kMaxVolumeFrames && drawn <= kMostDrawn) return {};
         return fail(fmt::format("{}: its scene shows more than {} models, or more than {} voxels in all; show fewer",
-                                source_, kMostFrames, kMostDrawn));
+                                source_, kMaxVolumeFrames, kMostDrawn));
     }
 
     std::size_t longest_shape() const {

@@ -114,6 +114,35 @@ TEST_CASE("foreign: a file cut short at any length gives a mesh or one line") {
     }
 }
 
+TEST_CASE("foreign: an importer can read files, and change nothing") {
+    const TempFolder folder;
+    CHECK_THAT(refused(folder, "sandbox"), contains("it could read; "));
+    CHECK(contents(folder / "a.fbx") == "sandbox");
+    CHECK(folder.names() == std::set<std::string>{"a.fbx"});
+}
+
+TEST_CASE("foreign: a model has files in its folder and below, and opens no others") {
+    const TempFolder folder;
+    const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    std::filesystem::create_directories(folder / "in/below");
+    put(folder / "out.off", off);
+    put(folder / "in/beside.off", off);
+    put(folder / "in/below/it.off", off);
+    std::filesystem::create_symlink(folder / "out.off", folder / "in/link.off");
+    const auto faces = [&folder](const std::string& object) -> std::size_t {
+        put(folder / "in/a.lws",
+            "LWSC\n5\n\nFirstFrame 1\nLoadObjectLayer 1 10000000 " + object + "\nShowObject 7 -1 0 0 0\n");
+        const auto mesh = io::read_mesh(folder / "in/a.lws", {.import_program = XORVOX_IMPORT});
+        return mesh ? mesh->view().face_count() : 0;
+    };
+    CHECK(faces("beside.off") == 1);
+    CHECK(faces("below/it.off") == 1);
+    for (const std::string& object : {folder / "out.off", std::string("../out.off"), std::string("link.off")}) {
+        CAPTURE(object);
+        CHECK(faces(object) == 0);
+    }
+}
+
 TEST_CASE("foreign: an importer that hangs, crashes, floods or talks nonsense is one clear line") {
     const TempFolder folder;
     CHECK_THAT(refused(folder, "hang", {.time = 100ms}),

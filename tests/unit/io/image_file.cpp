@@ -56,6 +56,14 @@ TEST_CASE("a PNG of 16 bits that states no gamma is sRGB") {
     }
 }
 
+TEST_CASE("a PNG that states a gamma becomes sRGB") {
+    const auto read = io::decode_image(encode_png_of_16_bits(101, 1), "file").value();  // Linear: its gamma is 1.
+    for (std::size_t i = 0; i <= 100; ++i) {
+        INFO(i);
+        CHECK(std::abs(255.0 * std::pow(static_cast<double>(i) / 100.0, 1.0 / 2.2) - read.pixels[i][0]) <= 2.0);
+    }
+}
+
 TEST_CASE("a JPEG is read as it was written, but for its losses") {
     const Image written = test_picture(64, 40);
     for (const bool progressive : {false, true}) {

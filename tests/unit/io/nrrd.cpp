@@ -1,6 +1,8 @@
 #include <numeric>
 #include <string>
 
+#include <sys/stat.h>
+
 #include "tests/unit/io/contains.h"
 #include "tests/unit/io/temp_folder.h"
 #include "tests/unit/io/volume_bytes.h"
@@ -126,11 +128,17 @@ TEST_CASE("nrrd: data beside a detached header are read, no other files") {
     CHECK(volume->frames[0].values[11] == 11.0f);
     put(folder / "b.nhdr", nrrd("uint8", "raw", "data file: b.raw\n"));
     CHECK_THAT(io::read_volumes(folder / "b.nhdr").error().message, contains("b.raw") && contains("No such file"));
-    for (const std::string name : {"/etc/passwd", "../a.raw", "..", "LIST", "a%d.raw 1 2 1", "b/a.raw"}) {
+    const auto refused = [&folder](const std::string& name) {
         put(folder / "c.nhdr", nrrd("uint8", "raw", "data file: " + name + "\n"));
-        CHECK_THAT(io::read_volumes(folder / "c.nhdr").error().message,
-                   contains("data file") && contains("own folder"));
-    }
+        return io::read_volumes(folder / "c.nhdr").error().message;
+    };
+    for (const char* name : {"LIST", "a%d.raw 1 2 1"}) CHECK_THAT(refused(name), contains("no list or pattern"));
+    CHECK_THAT(refused("/etc/passwd"), contains("c.nhdr: names '/etc/passwd', which is an absolute path"));
+    CHECK_THAT(refused("../a.raw"), contains("leads out of the folder"));
+    CHECK_THAT(refused(".."), contains("leads out of the folder"));
+    CHECK_THAT(refused("."), contains("is no regular file"));
+    REQUIRE(::mkfifo((folder / "pipe.raw").c_str(), 0600) == 0);
+    CHECK_THAT(refused("pipe.raw"), contains("'pipe.raw', which is no regular file"));
 }
 
 TEST_CASE("nrrd: values that are not finite are refused with their voxel") {
@@ -174,6 +182,14 @@ TEST_CASE("nrrd: sizes are not believed before the bytes are there") {
     // A bomb: much more than the header tells.
     const std::string bomb = gzip(std::string(10'000'000, '\0'));
     CHECK_THAT(refusal(kParse, nrrd("uint8", "gzip") + bomb), contains("hold more bytes") && contains("12"));
+}
+
+TEST_CASE("nrrd: gzip data of many members are theirs, one after the other") {
+    std::string members = gzip(kBytes.substr(0, 5));
+    const std::string empty = gzip("");
+    for (int n = 0; n < 20000; ++n) members += empty;
+    CHECK(only(nrrd("uint8", "gzip") + members + gzip(kBytes.substr(5))).values[11] == 11.0f);
+    CHECK_THAT(refusal(kParse, nrrd("uint8", "gzip") + members), contains("hold 5 bytes"));
 }
 
 TEST_CASE("nrrd: hostile bytes give a sound volume or one line") {

@@ -131,11 +131,44 @@ TEST_CASE("resample: all kinds of volumes on all kinds of lattices are as define
     }
 }
 
+TEST_CASE("resample: a place that rounds up to the end of a volume is beyond it") {
+    const auto kind = GENERATE(VolumeKind::Binary, VolumeKind::Scalar, VolumeKind::Labels, VolumeKind::Colors);
+    SampledVolume volume;
+    volume.kind = kind;
+    volume.nx = volume.ny = volume.nz = 1;
+    if (kind == VolumeKind::Colors) {
+        volume.colors = {{1, 2, 3, 255}};
+    } else {
+        volume.values = {1.0f};
+    }
+    Lattice lattice;
+    lattice.nx = lattice.ny = lattice.nz = 1;
+    lattice.origin = glm::dvec3(-0.5);
+    constexpr double kBelowHalf = 0.49999999999999994;  // And half a voxel is 1, rounded.
+    for (const glm::dvec3& at : {glm::dvec3(kBelowHalf, 0, 0), glm::dvec3(0, kBelowHalf, 0),
+                                 glm::dvec3(0, 0, kBelowHalf), glm::dvec3(kBelowHalf)}) {
+        std::size_t set = 0;
+        CHECK(differences(volume, 1.0, glm::translate(glm::dmat4(1.0), at), lattice, 1, &set) == 0);
+        CHECK(set == 0);
+    }
+    CHECK(differences(volume, 1.0, glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5)), lattice, 1) == 0);
+}
+
 TEST_CASE("resample: any number of threads gives the same bits") {
     const SampledVolume volume = make(VolumeKind::Scalar, 7, 6, 9, 6);
     for (const unsigned threads : {2u, 3u, 16u, 100u}) {
         CHECK(differences(volume, 5.0, askew(), regular(70, 5, 11), threads) == 0);
     }
+}
+
+TEST_CASE("resample: a stop request ends it") {
+    const SampledVolume volume = make(VolumeKind::Binary, 3, 3, 3, 4);
+    const Lattice lattice = regular(70, 5, 11);
+    BitVolume bits(lattice);
+    std::stop_source stop;
+    stop.request_stop();
+    CHECK(resample(volume, 0.0, askew(), lattice, bits.view(), 2, stop.get_token()) == Status::Cancelled);
+    CHECK(bits.count() == 0);
 }
 
 TEST_CASE("resample: on its own grid a volume is itself, and beyond it there is nothing") {
