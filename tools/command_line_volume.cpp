@@ -1,9 +1,11 @@
 // The options of volumes, and the command convert.
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "driver/host/color.h"
 #include "tools/command_line.h"
 
 namespace xorvox::tools {
@@ -30,8 +32,13 @@ void add_volume(CLI::App& app, VolumeOptions& volume) {
 }
 
 void add_transfer(CLI::App& app, VolumeOptions& volume) {
-    app.add_option(
-           "--transfer", volume.transfer,
+    app.add_option_function<std::string>(
+           "--transfer",
+           [&volume](const std::string& text) {
+               auto transfer = TransferFunction::parse(text, host::parse_color_name);
+               if (!transfer) throw CLI::ValidationError("--transfer", transfer.error().message);
+               volume.transfer = std::move(*transfer);
+           },
            "Of a volume of values: their colours, mixed in between; a third part of a stop is its opacity, 0 to "
            "1 (default: blue to gold from the threshold to the most value)")
         ->type_name("VALUE:COLOR,…");

@@ -13,6 +13,7 @@
 #include "voxelizer/error.h"
 #include "voxelizer/region.h"
 #include "voxelizer/simplicial.h"
+#include "voxelizer/transfer_function.h"
 
 namespace xorvox::tools {
 
@@ -34,9 +35,9 @@ struct GridOptions {
 
 /// How a volume file is taken; shared by show, play, info and convert.
 struct VolumeOptions {
-    std::optional<double> threshold;     ///< Of volumes of values; none: found by Otsu's method.
-    std::string transfer;                ///< VALUE:COLOR[:OPACITY],…; empty: from threshold to most value.
-    std::optional<std::uint32_t> frame;  ///< Only this one, from 0; none: all.
+    std::optional<double> threshold;           ///< Of volumes of values; none: found by Otsu's method.
+    std::optional<TransferFunction> transfer;  ///< Of the same; none: from threshold to most value.
+    std::optional<std::uint32_t> frame;        ///< Only this one, from 0; none: all.
 };
 
 struct InfoOptions {

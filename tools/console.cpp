@@ -1,4 +1,5 @@
 #include "tools/console.h"
+#include "voxelizer/io/file_name.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -69,9 +70,9 @@ std::string json_string(std::string_view text) {
     return out + '"';
 }
 
-Progress::Progress(std::string activity) {
+Progress::Progress(std::string_view activity) {
     if (!isatty(STDERR_FILENO)) return;
-    thread_ = std::jthread([this, activity = std::move(activity)](std::stop_token stop) {
+    thread_ = std::jthread([this, activity = io::printable_name(activity)](std::stop_token stop) {
         std::mutex mutex;
         std::condition_variable_any wake;
         std::unique_lock lock(mutex);

@@ -25,7 +25,7 @@ std::string json_string(std::string_view text);
 /// how much of it is done where that is known, renewed in place and wiped at the end. On a pipe, nothing.
 class Progress {
 public:
-    explicit Progress(std::string activity);
+    explicit Progress(std::string_view activity);
 
     /// `part` of it is done: 0 to 1.
     void done(double part) { percent_ = static_cast<int>(part * 100.0); }

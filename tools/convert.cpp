@@ -16,6 +16,7 @@
 #include "tools/stop.h"
 #include "tools/volume_input.h"
 #include "voxelizer/bit_volume.h"
+#include "voxelizer/io/file_name.h"
 #include "voxelizer/io/volume_file.h"
 #include "voxelizer/resample.h"
 #include "voxelizer/volume_place.h"
@@ -142,22 +143,23 @@ Expected<void> convert(const ConvertOptions& options) {
     if (const auto known = io::check_volume_path(options.output, how); !known) return known;
     Expected<VolumeInput> input = [&] {
         const Progress progress("reading " + options.input);
-        return read_volume_input(options.input, options.volume);
+        return read_volume_input({&options.input, 1}, options.volume);
     }();
     if (!input) return tl::unexpected(std::move(input.error()));
     if (const std::size_t frames = input->sequence.frames.size(); frames > 1) {
-        return fail(fmt::format("{} has {} frames; choose one by --volume 0 to {}", options.input, frames, frames - 1));
+        return fail(fmt::format("{} has {} frames; choose one by --volume 0 to {}", io::printable_name(options.input),
+                                frames, frames - 1));
     }
     const SampledVolume& volume = input->sequence.frames.front();
     if (std::max({volume.nx, volume.ny, volume.nz}) > kMaxLatticeSide) {
-        return fail(fmt::format("{}: {} × {} × {} voxels; at most {} a side are written", options.input, volume.nx,
-                                volume.ny, volume.nz, kMaxLatticeSide));
+        return fail(fmt::format("{}: {} × {} × {} voxels; at most {} a side are written",
+                                io::printable_name(options.input), volume.nx, volume.ny, volume.nz, kMaxLatticeSide));
     }
     const auto axes = axes_along_space(volume);
     Lattice lattice;
     const auto bits =
         axes ? reorder(volume, input->threshold, *axes, lattice) : straighten(volume, input->threshold, lattice);
-    if (!bits) return fail(options.input + ": " + bits.error().message);
+    if (!bits) return fail(io::printable_name(options.input) + ": " + bits.error().message);
     {
         const StopRequests stop;
         const Progress progress("writing " + options.output);
@@ -172,8 +174,8 @@ Expected<void> convert(const ConvertOptions& options) {
         return {};
     }
     if (const std::string found = describe_threshold(*input); !found.empty()) fmt::print("{}\n", found);
-    fmt::print("{}: {} of {} × {} × {} voxels set{}\n", options.output, thousands(bits->count()), lattice.nx,
-               lattice.ny, lattice.nz, axes ? "" : "; the volume lay askew and was straightened");
+    fmt::print("{}: {} of {} × {} × {} voxels set{}\n", io::printable_name(options.output), thousands(bits->count()),
+               lattice.nx, lattice.ny, lattice.nz, axes ? "" : "; the volume lay askew and was straightened");
     return {};
 }
 

@@ -231,4 +231,15 @@ Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Addr
     return fail("unknown kind of address");
 }
 
+std::string light_json(const std::optional<LightSeen>& light) {
+    std::string object = light ? sim::to_json(light->statistics) : "null";
+    while (object.ends_with('\n')) object.pop_back();
+    return object;
+}
+
+std::string picture_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
+    return fmt::format("\"picture\": {}, \"light\": {}", options.png.empty() ? "null" : json_string(options.png),
+                       light_json(light));
+}
+
 }  // namespace xorvox::tools

@@ -61,4 +61,10 @@ Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Addr
                            const DisplayDescription& display, std::span<const std::byte> frame, std::size_t pixels,
                            io::AtomicFile* png);
 
+/// What a display in this program showed, as a JSON object; "null" of another one.
+std::string light_json(const std::optional<LightSeen>& light);
+
+/// Members of a JSON object: the picture and the light.
+std::string picture_json(const DeliveryOptions& options, const std::optional<LightSeen>& light);
+
 }  // namespace xorvox::tools

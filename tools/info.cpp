@@ -47,7 +47,6 @@ std::string json_of_scene(const io::Scene& scene) {
 std::string text_of_colors(const io::Scene& scene) {
     if (!scene.colors_fault.empty()) return "none can be shown: " + scene.colors_fault;
     const SurfaceColors& colors = scene.colors;
-    if (colors.empty()) return "none";
     std::string text;
     const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
     const auto count = [](std::size_t n, const char* noun) {
@@ -56,14 +55,14 @@ std::string text_of_colors(const io::Scene& scene) {
     if (!colors.materials.empty()) add(count(colors.materials.size(), "material"));
     if (!colors.images.empty()) add(count(colors.images.size(), "image"));
     if (!colors.corner_colors.empty()) add("colours at the vertices");
-    return text;
+    return text.empty() ? "none" : text;
 }
 
 void print_scene(const io::Scene& scene) {
     fmt::print("  {:<20}{}\n", "colours", text_of_colors(scene));
     for (const io::SceneAnimation& animation : animations_of(scene)) {
-        fmt::print("  {:<20}{}{:.6g} s\n", "animation", animation.name.empty() ? "" : animation.name + ", ",
-                   animation.duration_seconds);
+        fmt::print("  {:<20}{}{:.6g} s\n", "animation",
+                   animation.name.empty() ? "" : io::printable_name(animation.name) + ", ", animation.duration_seconds);
     }
     for (const std::string& note : scene.notes) fmt::print("  {:<20}{}\n", "note", note);
 }
@@ -82,7 +81,7 @@ void print_json(const std::string& path, const io::MeshReport& r, const io::Scen
 
 void print_text(const std::string& path, const io::MeshReport& r, const io::Scene& scene) {
     const glm::dvec3 size = r.max - r.min;
-    fmt::print("{}\n", path);
+    fmt::print("{}\n", io::printable_name(path));
     fmt::print("  {:<20}{}\n", "vertices", thousands(r.vertices));
     fmt::print("  {:<20}{}", "faces", thousands(r.faces));
     fmt::print("{}\n",

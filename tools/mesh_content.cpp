@@ -19,13 +19,6 @@ SolidOptions solid_options(unsigned threads) {
     return options;
 }
 
-/// Whether a surface has colours that are not white all over.
-bool has_colors(const SurfaceColors& colors) {
-    return !colors.corner_colors.empty() || std::ranges::any_of(colors.materials, [](const SurfaceMaterial& material) {
-        return material.factor != glm::vec3(1.0f) || material.image != SurfaceMaterial::kNoImage;
-    });
-}
-
 }  // namespace
 
 Expected<std::unique_ptr<MeshContent>> MeshContent::make(std::vector<NamedScene> scenes, std::size_t animation,
@@ -112,7 +105,7 @@ Expected<void> MeshContent::draw(double seconds, const glm::dmat4& pose, BitVolu
 }
 
 bool MeshContent::has_own_color() const {
-    return std::ranges::all_of(scenes_, [](const NamedScene& scene) { return has_colors(scene.scene.colors); });
+    return std::ranges::all_of(scenes_, [](const NamedScene& scene) { return !scene.scene.colors.is_white(); });
 }
 
 const host::ColorField* MeshContent::own_color() {

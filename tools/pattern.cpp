@@ -127,12 +127,6 @@ std::string gone_to(const transport::Address& address) {
                : fmt::format("tcp:{}:{} has shown it", address.host, address.port);
 }
 
-std::string light_json(const std::optional<LightSeen>& light) {
-    std::string text = light ? sim::to_json(light->statistics) : "null";
-    while (text.ends_with('\n')) text.pop_back();
-    return text;
-}
-
 void print_picture(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
     if (options.png.empty() || !light) return;
     fmt::print("picture: {}, {:.1f} % of it is lit\n", options.png, 100.0 * light->picture_covered);

@@ -15,18 +15,20 @@
 #include "tools/console.h"
 #include "tools/stage.h"
 #include "tools/stream.h"
+#include "voxelizer/io/file_name.h"
 
 namespace xorvox::tools {
 namespace {
 
 Expected<host::Timeline> read_timeline(const std::string& path) {
+    const std::string name = io::printable_name(path);
     std::ifstream file(path, std::ios::binary);
-    if (!file) return fail(fmt::format("--timeline: {}: it cannot be opened", path));
+    if (!file) return fail(fmt::format("--timeline: {}: it cannot be opened", name));
     std::string text(std::size_t{1} << 21, '\0');
     file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (file.bad() || (file.fail() && !file.eof())) return fail(fmt::format("--timeline: {}: it cannot be read", path));
+    if (file.bad() || (file.fail() && !file.eof())) return fail(fmt::format("--timeline: {}: it cannot be read", name));
     text.resize(static_cast<std::size_t>(file.gcount()));
-    return host::parse_timeline(text, path);
+    return host::parse_timeline(text, name);
 }
 
 /// What moves, from a file or as typed.
@@ -119,7 +121,7 @@ Expected<void> play(const PlayOptions& options) {
     if (to.json) {
         fmt::print("{{{}, \"two_way\": {}, {}, {}}}\n", stage_json(options.stage, stage, voxels),
                    stage.address.kind != transport::AddressKind::File, stream_json(*delivery),
-                   light_json(to, delivery->light));
+                   picture_json(to, delivery->light));
     } else {
         fmt::print("{}: {} of {} samples were inside at the end\n", stage.display.name.view(), thousands(voxels),
                    thousands(frame_pixels(stage.display)));

@@ -118,15 +118,13 @@ void report(const ShareOptions& options, const DisplayDescription& display, cons
     const DeliveryOptions& to = options.delivery;
     const std::optional<LightSeen>& light = delivery.light;
     if (to.json) {
-        std::string lit = light ? sim::to_json(light->statistics) : "null";
-        while (lit.ends_with('\n')) lit.pop_back();
         fmt::print(
             "{{\"event\": \"ended\", \"display\": {}, \"to\": {}, \"programs\": {}, \"frames_published\": {}, "
             "\"by_message\": {}, \"by_atomics\": {}, \"frames_handed_on\": {}, \"last_tag\": {}, \"refused\": {}, {}, "
-            "\"picture\": {}, \"light\": {}}}\n",
+            "{}}}\n",
             json_string(display.name.view()), json_string(to.to), seen.clients, seen.frames(), seen.by_message,
             seen.by_exchange, source.handed_on(), source.tag(), refused_json(seen), stream_json(delivery),
-            to.png.empty() ? "null" : json_string(to.png), lit);
+            picture_json(to, light));
         return;
     }
     fmt::print("drawn: {} frames by {} {}, {} by message and {} by atomics; {} went on to the display\n",

@@ -8,6 +8,7 @@
 #include "tools/console.h"
 #include "tools/delivery.h"
 #include "tools/stage.h"
+#include "voxelizer/io/file_name.h"
 
 namespace xorvox::tools {
 namespace {
@@ -26,7 +27,8 @@ Expected<void> show_still(const StageOptions& options) {
         voxels = stage.maker->volume().count();
     }
     if (voxels == 0) {
-        warn(options.mesh.path + ": no sample of the display is inside it; it may be thinner than the display's pitch");
+        warn(io::printable_name(options.mesh.path) +
+             ": no sample of the display is inside it; it may be thinner than the display's pitch");
     }
     const DeliveryOptions& to = options.delivery;
     const Expected<Delivery> delivery =
@@ -35,7 +37,7 @@ Expected<void> show_still(const StageOptions& options) {
     if (to.json) {
         fmt::print("{{{}, \"bytes_raw\": {}, \"bytes_sent\": {}, \"two_way\": {}, {}}}\n",
                    stage_json(options, stage, voxels), delivery->session.bytes_raw, delivery->session.bytes_sent,
-                   stage.address.kind != transport::AddressKind::File, light_json(to, delivery->light));
+                   stage.address.kind != transport::AddressKind::File, picture_json(to, delivery->light));
         return {};
     }
     fmt::print("{}: {} of {} samples are inside\n", stage.display.name.view(), thousands(voxels),

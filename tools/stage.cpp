@@ -26,17 +26,40 @@ std::vector<std::string> paths(const StageOptions& options) {
     return all;
 }
 
+/// Whether all files are of one kind, and the options for that kind.
+Expected<void> check_kind(const StageOptions& options) {
+    const std::string first = io::printable_name(options.mesh.path);
+    const bool volumes = io::is_volume_path(options.mesh.path);
+    for (const std::string& path : options.following) {
+        if (io::is_volume_path(path) == volumes) continue;
+        return fail(fmt::format("{} is a {} and {} is a {}; a sequence has one kind", first,
+                                volumes ? "volume" : "mesh", io::printable_name(path), volumes ? "mesh" : "volume"));
+    }
+    const MeshOptions& mesh = options.mesh;
+    if (volumes && (!mesh.unit.empty() || !mesh.up.empty() || mesh.strict || !options.animation.empty())) {
+        return fail(
+            fmt::format("--unit, --up, --strict and --animation are for meshes, and {} is a volume; leave them "
+                        "away",
+                        first));
+    }
+    if (!volumes && (options.volume.threshold || options.volume.frame || options.volume.transfer)) {
+        return fail(
+            fmt::format("--threshold, --transfer and --volume are for volumes, and {} is a mesh; leave them "
+                        "away",
+                        first));
+    }
+    if (!options.animation.empty() && !options.following.empty()) {
+        return fail("--animation is for one file alone; of several each is shown as it stands");
+    }
+    return {};
+}
+
 Expected<std::unique_ptr<Content>> read_volumes(const StageOptions& options, const DisplayDescription& display,
                                                 Turning turning) {
-    std::vector<VolumeInput> inputs;
-    for (const std::string& path : paths(options)) {
-        Expected<VolumeInput> input = read_volume_input(path, options.volume);
-        if (!input) return tl::unexpected(input.error());
-        if (inputs.empty() && input->threshold_found)
-            warn(io::printable_name(path) + ": " + describe_threshold(*input));
-        inputs.push_back(std::move(*input));
-    }
-    return VolumeContent::make(std::move(inputs), options.mesh.path, display, turning, 1.0 / options.files_per_second,
+    Expected<VolumeInput> input = read_volume_input(paths(options), options.volume);
+    if (!input) return tl::unexpected(input.error());
+    if (input->threshold_found) warn(io::printable_name(options.mesh.path) + ": " + describe_threshold(*input));
+    return VolumeContent::make(std::move(*input), options.mesh.path, display, turning, 1.0 / options.files_per_second,
                                1);
 }
 
@@ -48,10 +71,10 @@ Expected<std::size_t> choose_animation(const io::Scene& scene, const std::string
     std::string known;
     for (std::size_t i = 0; i < animations.size(); ++i) {
         if (name == animations[i].name || name == std::to_string(i)) return i;
-        known += fmt::format("{}{} {}", known.empty() ? "" : ", ", i, animations[i].name);
+        known += fmt::format("{}{} {}", known.empty() ? "" : ", ", i, io::printable_name(animations[i].name));
     }
-    return fail(fmt::format("--animation: {} has no \"{}\"; it has {}", io::printable_name(path), name,
-                            known.empty() ? "none" : known));
+    return fail(fmt::format("--animation: {} has no \"{}\"; it has {}", io::printable_name(path),
+                            io::printable_name(name), known.empty() ? "none" : known));
 }
 
 Expected<std::unique_ptr<Content>> read_meshes(const StageOptions& options, const DisplayDescription& display,
@@ -78,19 +101,8 @@ Expected<std::unique_ptr<Content>> read_meshes(const StageOptions& options, cons
 
 Expected<std::unique_ptr<Content>> read_content(const StageOptions& options, const DisplayDescription& display,
                                                 Turning turning) {
-    const bool volumes = io::is_volume_path(options.mesh.path);
-    for (const std::string& path : options.following) {
-        if (io::is_volume_path(path) == volumes) continue;
-        return fail(fmt::format("{} is a {} and {} is a {}; a sequence has one kind",
-                                io::printable_name(options.mesh.path), volumes ? "volume" : "mesh",
-                                io::printable_name(path), volumes ? "mesh" : "volume"));
-    }
-    if (volumes) return read_volumes(options, display, turning);
-    if (options.volume.threshold || options.volume.frame || !options.volume.transfer.empty()) {
-        return fail(fmt::format("--threshold, --transfer and --volume are for volumes, and {} is a mesh",
-                                io::printable_name(options.mesh.path)));
-    }
-    return read_meshes(options, display, turning);
+    return io::is_volume_path(options.mesh.path) ? read_volumes(options, display, turning)
+                                                 : read_meshes(options, display, turning);
 }
 
 }  // namespace
@@ -104,6 +116,7 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
     if (const auto possible = check_delivery(to, stage->address, options.mesh.path); !possible) {
         return tl::unexpected(possible.error());
     }
+    if (const auto one = check_kind(options); !one) return tl::unexpected(one.error());
     Expected<DisplayFile> display = load_display(options.display);
     if (!display) return tl::unexpected(display.error());
     stage->display = std::move(*display);
@@ -167,13 +180,6 @@ std::string stage_json(const StageOptions& options, const Stage& stage, std::siz
         "\"dimmed_to\": {:.4f}",
         json_string(options.mesh.path), json_string(stage.display.name.view()), json_string(options.delivery.to),
         frame_pixels(stage.display), inside, light_settings_json(options.light), stage.maker->dimmed_to());
-}
-
-std::string light_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
-    std::string object = light ? sim::to_json(light->statistics) : "null";
-    while (object.ends_with('\n')) object.pop_back();
-    return fmt::format("\"picture\": {}, \"light\": {}", options.png.empty() ? "null" : json_string(options.png),
-                       object);
 }
 
 }  // namespace xorvox::tools

@@ -26,8 +26,9 @@ struct Stage {
     std::optional<io::AtomicFile> png;  ///< Of --png.
 };
 
-/// Sets it, for something that turns like `turning`. What is wrong with the options is found before any file is
-/// touched, and the picture's file is made before the work begins.
+/// Sets it, for something that turns like `turning`. What is wrong with the options is found before any file is made,
+/// and the picture's is made before the model is read: only what the model itself says against them is found later, and
+/// then no picture is left.
 Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning turning);
 
 /// What a person wants to know of the light: how far it was dimmed, and of a display in this program what was lit.
@@ -36,6 +37,5 @@ void print_light(const StageOptions& options, const Stage& stage, const std::opt
 /// Members of a JSON object: what the report of a stage begins with, `inside` samples being inside, and what it ends
 /// with.
 std::string stage_json(const StageOptions& options, const Stage& stage, std::size_t inside);
-std::string light_json(const DeliveryOptions& options, const std::optional<LightSeen>& light);
 
 }  // namespace xorvox::tools

@@ -19,6 +19,7 @@
 #include "sim/uniformity.h"
 #include "tools/commands.h"
 #include "tools/console.h"
+#include "tools/placement.h"
 
 namespace xorvox::tools {
 namespace {
@@ -211,6 +212,7 @@ Expected<void> uniformity(const UniformityOptions& options) {
     for (const std::string& name : names) {
         auto display = load_display(name);
         if (!display) return tl::unexpected<Error>(display.error());
+        if (const auto fits = check_display_fits(*display); !fits) return fits;
         displays.push_back(std::move(*display));
     }
     std::vector<Measured> all;

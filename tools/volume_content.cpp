@@ -9,24 +9,19 @@
 
 namespace xorvox::tools {
 
-Expected<std::unique_ptr<VolumeContent>> VolumeContent::make(std::vector<VolumeInput> inputs, const std::string& source,
+Expected<std::unique_ptr<VolumeContent>> VolumeContent::make(VolumeInput input, const std::string& source,
                                                              const DisplayDescription& display, Turning turning,
                                                              double seconds_each, unsigned threads) {
-    std::vector<glm::dvec3> corners;
-    for (const VolumeInput& input : inputs) {
-        const auto more = box_corners(input.sequence.frames);
-        corners.insert(corners.end(), more.begin(), more.end());
-    }
+    const std::vector<glm::dvec3> corners = box_corners(input.sequence.frames);
     const Expected<Placement> placement =
         fit_to_display([&corners](const auto& visit) { visit(corners); }, display, source, turning);
     if (!placement) return tl::unexpected(placement.error());
     std::unique_ptr<VolumeContent> content(new VolumeContent());
-    for (VolumeInput& input : inputs) {
-        for (SampledVolume& volume : input.sequence.frames) {
-            content->frames_.push_back(
-                {std::make_shared<const SampledVolume>(std::move(volume)), input.threshold, input.transfer});
-        }
+    for (SampledVolume& volume : input.sequence.frames) {
+        content->frames_.push_back(std::make_shared<const SampledVolume>(std::move(volume)));
     }
+    content->threshold_ = input.threshold;
+    content->transfer_ = std::move(input.transfer);
     const DisplayExtent room = extent(display);
     content->placement_ = placement->matrix();
     content->lower_ = room.lower;
@@ -47,21 +42,24 @@ Expected<void> VolumeContent::set_lattice(const Lattice& lattice) {
 
 Expected<void> VolumeContent::draw(double seconds, const glm::dmat4& pose, BitVolumeView voxels) {
     const double duration = duration_seconds();
-    current_ = duration > 0.0 ? static_cast<std::size_t>(std::fmod(seconds, duration) / seconds_each_) : 0;
-    current_ = std::min(current_, frames_.size() - 1);
-    const Frame& frame = frames_[current_];
-    to_volume_ = display_to_volume(*frame.volume, pose * placement_);
-    if (resample(*frame.volume, frame.threshold, to_volume_, lattice_, voxels, threads_) == Status::Ok) return {};
+    const auto at = duration > 0.0 ? static_cast<std::size_t>(std::fmod(seconds, duration) / seconds_each_) : 0;
+    const std::size_t number = std::min(at, frames_.size() - 1);
+    if (number != current_) color_.reset();
+    current_ = number;
+    const SampledVolume& volume = *frames_[current_];
+    to_volume_ = display_to_volume(volume, pose * placement_);
+    if (color_) color_->set_placement(host::box_to_volume(lower_, upper_, to_volume_));
+    if (resample(volume, threshold_, to_volume_, lattice_, voxels, threads_) == Status::Ok) return {};
     return fail("the volume could not be resampled");
 }
 
 bool VolumeContent::has_own_color() const {
-    return std::ranges::any_of(frames_, [](const Frame& frame) { return frame.volume->kind != VolumeKind::Binary; });
+    return std::ranges::any_of(frames_, [](const auto& volume) { return volume->kind != VolumeKind::Binary; });
 }
 
 const host::ColorField* VolumeContent::own_color() {
-    const Frame& frame = frames_[current_];
-    return &color_.emplace(frame.volume, host::box_to_volume(lower_, upper_, to_volume_), frame.transfer);
+    if (!color_) color_.emplace(frames_[current_], host::box_to_volume(lower_, upper_, to_volume_), transfer_);
+    return &*color_;
 }
 
 }  // namespace xorvox::tools

@@ -17,9 +17,9 @@ namespace xorvox::tools {
 
 class VolumeContent final : public Content {
 public:
-    /// Fits `inputs`, at least one, into `display`, all by one placement; messages call them `source`. Each of their
-    /// frames is shown for `seconds_each`; the only one always. Works with `threads` threads.
-    static Expected<std::unique_ptr<VolumeContent>> make(std::vector<VolumeInput> inputs, const std::string& source,
+    /// Fits the frames of `input` into `display`, all by one placement; messages call them `source`. Each of them is
+    /// shown for `seconds_each`; the only one always. Works with `threads` threads.
+    static Expected<std::unique_ptr<VolumeContent>> make(VolumeInput input, const std::string& source,
                                                          const DisplayDescription& display, Turning turning,
                                                          double seconds_each, unsigned threads);
 
@@ -30,23 +30,20 @@ public:
     const host::ColorField* own_color() override;
 
 private:
-    struct Frame {
-        std::shared_ptr<const SampledVolume> volume;
-        double threshold = 0.0;
-        std::optional<TransferFunction> transfer;
-    };
     VolumeContent() = default;
 
-    std::vector<Frame> frames_;
+    std::vector<std::shared_ptr<const SampledVolume>> frames_;
+    double threshold_ = 0.0;
+    std::optional<TransferFunction> transfer_;
     glm::dmat4 placement_{1.0};
     glm::dvec3 lower_{0.0};  ///< The display's box.
     glm::dvec3 upper_{0.0};
     double seconds_each_ = 0.0;
     unsigned threads_ = 1;
     Lattice lattice_;
-    std::size_t current_ = 0;    ///< Of frames_: what was drawn last.
-    glm::dmat4 to_volume_{1.0};  ///< Where it was.
-    std::optional<host::VolumeColor> color_;
+    std::size_t current_ = 0;                 ///< Of frames_: what was drawn last.
+    glm::dmat4 to_volume_{1.0};               ///< Where it was.
+    std::optional<host::VolumeColor> color_;  ///< Of frames_[current_], once it was asked for.
 };
 
 }  // namespace xorvox::tools

@@ -9,6 +9,7 @@
 #include "tools/console.h"
 #include "tools/volume_info.h"
 #include "tools/volume_input.h"
+#include "voxelizer/io/file_name.h"
 #include "voxelizer/volume_place.h"
 
 namespace xorvox::tools {
@@ -71,7 +72,7 @@ void print_text(const std::string& path, const VolumeInput& input, const Facts& 
     const SampledVolume& first = input.sequence.frames.front();
     const glm::dvec3 size = f.upper - f.lower;
     const auto line = [](const char* name, const std::string& text) { fmt::print("  {:<20}{}\n", name, text); };
-    fmt::print("{}\n", path);
+    fmt::print("{}\n", io::printable_name(path));
     line("kind", kind_name(first.kind));
     line("voxels", fmt::format("{} × {} × {} = {}", first.nx, first.ny, first.nz, thousands(first.voxel_count())));
     line("frames", thousands(input.sequence.frames.size()));
@@ -97,7 +98,7 @@ void print_text(const std::string& path, const VolumeInput& input, const Facts& 
 Expected<void> volume_info(const std::string& path, const VolumeOptions& options, bool json) {
     Expected<VolumeInput> input = [&] {
         const Progress progress("reading " + path);
-        return read_volume_input(path, options);
+        return read_volume_input({&path, 1}, options);
     }();
     if (!input) return tl::unexpected(std::move(input.error()));
     (json ? print_json : print_text)(path, *input, facts_of(*input));

@@ -1,11 +1,11 @@
 #include "tools/volume_input.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "driver/host/color.h"
 #include "driver/host/volume_color.h"
 #include "voxelizer/io/file_name.h"
 #include "voxelizer/io/volume_reader.h"
@@ -16,7 +16,7 @@ namespace {
 
 Expected<void> check_options(const SampledVolume& first, const VolumeOptions& options, const std::string& name) {
     if (first.kind == VolumeKind::Scalar) return {};
-    const char* const given = options.threshold ? "--threshold" : !options.transfer.empty() ? "--transfer" : nullptr;
+    const char* const given = options.threshold ? "--threshold" : options.transfer ? "--transfer" : nullptr;
     if (given == nullptr) return {};
     return fail(fmt::format("{} is for volumes of values, and {} has {}; leave it away", given, name,
                             first.kind == VolumeKind::Binary   ? "only inside and outside"
@@ -38,28 +38,30 @@ Expected<void> choose_frame(VolumeSequence& sequence, std::uint32_t frame, const
 
 }  // namespace
 
-Expected<VolumeInput> read_volume_input(const std::string& path, const VolumeOptions& options) {
-    auto sequence = io::read_volumes(path);
-    if (!sequence) return tl::unexpected(std::move(sequence.error()));
-    const std::string name = io::printable_name(path);
-    if (options.frame) {
-        if (auto ok = choose_frame(*sequence, *options.frame, name); !ok) return tl::unexpected(std::move(ok.error()));
+Expected<VolumeInput> read_volume_input(std::span<const std::string> paths, const VolumeOptions& options) {
+    VolumeInput input;
+    std::vector<SampledVolume>& frames = input.sequence.frames;
+    for (const std::string& path : paths) {
+        auto sequence = io::read_volumes(path);
+        if (!sequence) return tl::unexpected(std::move(sequence.error()));
+        const std::string name = io::printable_name(path);
+        if (options.frame) {
+            if (auto ok = choose_frame(*sequence, *options.frame, name); !ok)
+                return tl::unexpected(std::move(ok.error()));
+        }
+        if (auto ok = check_options(sequence->frames.front(), options, name); !ok)
+            return tl::unexpected(std::move(ok.error()));
+        std::ranges::move(sequence->frames, std::back_inserter(frames));
     }
-    VolumeInput input{.sequence = std::move(*sequence)};
-    const SampledVolume& first = input.sequence.frames.front();
-    if (auto ok = check_options(first, options, name); !ok) return tl::unexpected(std::move(ok.error()));
-    if (first.kind != VolumeKind::Scalar) return input;
-
-    // One threshold for all frames: what does not change must not flicker.
+    std::vector<std::span<const float>> values;
+    for (const SampledVolume& volume : frames) {
+        if (volume.kind == VolumeKind::Scalar) values.emplace_back(volume.values);
+    }
+    if (values.empty()) return input;
     input.threshold_found = !options.threshold;
-    input.threshold = options.threshold ? *options.threshold : otsu_threshold(first.values);
-    if (!options.transfer.empty()) {
-        auto transfer = TransferFunction::parse(options.transfer, host::parse_color_name);
-        if (!transfer) return fail("--transfer: " + transfer.error().message);
-        input.transfer = std::move(*transfer);
-    } else {
-        input.transfer = host::default_transfer(input.threshold, value_range(input.sequence).most);
-    }
+    input.threshold = options.threshold ? *options.threshold : otsu_threshold(values);
+    input.transfer = options.transfer ? *options.transfer
+                                      : host::default_transfer(input.threshold, value_range(input.sequence).most);
     return input;
 }
 
@@ -82,7 +84,7 @@ ValueRange value_range(const VolumeSequence& sequence) {
     ValueRange range;
     bool any = false;
     for (const SampledVolume& volume : sequence.frames) {
-        if (volume.values.empty()) continue;
+        if (volume.kind != VolumeKind::Scalar) continue;
         const auto [least, most] = std::ranges::minmax_element(volume.values);
         range.least = any ? std::min(range.least, double{*least}) : double{*least};
         range.most = any ? std::max(range.most, double{*most}) : double{*most};

@@ -23,17 +23,19 @@ struct ValueRange {
     double most = 0.0;
 };
 
-/// Volumes, and what the options make of them.
+/// Volumes, and what the options make of them: one threshold and one transfer function for all frames, since what does
+/// not change must not flicker.
 struct VolumeInput {
     VolumeSequence sequence;
     double threshold = 0.0;                    ///< Of Scalar: what is inside is at least so much.
-    bool threshold_found = false;              ///< By Otsu's method: nobody gave one.
+    bool threshold_found = false;              ///< By Otsu's method, in all frames: nobody gave one.
     std::optional<TransferFunction> transfer;  ///< Of Scalar: the one asked for, or from threshold to most value.
 };
 
-/// Reads the volumes at `path`. With options.frame only that one is left. Errors: everything read_volumes() says;
-/// options that are not for volumes of this kind; a frame that is not there; a transfer function that is none.
-Expected<VolumeInput> read_volume_input(const std::string& path, const VolumeOptions& options);
+/// Reads the volumes at `paths`, at least one, one after the other. With options.frame only that one is left of each
+/// file. Errors: everything read_volumes() says; options that are not for volumes of this kind; a frame that is not
+/// there.
+Expected<VolumeInput> read_volume_input(std::span<const std::string> paths, const VolumeOptions& options);
 
 /// "threshold 102.5, found by Otsu's method; --threshold sets another"; empty when there is nothing to say.
 std::string describe_threshold(const VolumeInput& input);
@@ -41,7 +43,7 @@ std::string describe_threshold(const VolumeInput& input);
 /// "binary", "scalar", "labels" or "colors".
 const char* kind_name(VolumeKind kind);
 
-/// Over all frames; values other than those of Colors.
+/// Over all frames of Scalar.
 ValueRange value_range(const VolumeSequence& sequence);
 
 /// The corners of the boxes around all voxels of all of `frames`, in mm: points for fit_to_display() and bounds.

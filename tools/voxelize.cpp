@@ -8,6 +8,7 @@
 #include "tools/placement.h"
 #include "tools/solid_methods.h"
 #include "voxelizer/io/atomic_file.h"
+#include "voxelizer/io/file_name.h"
 #include "voxelizer/io/volume_file.h"
 
 namespace xorvox::tools {
@@ -87,7 +88,8 @@ Expected<void> voxelize(const VoxelizeOptions& options) {
     const Expected<SolidFile> file = method(options, mesh, *lattice);
     if (!file) return tl::unexpected(file.error());
     if (file->set == 0)
-        warn(options.mesh.path + ": no voxel is inside it; it may be thinner than a voxel, or beside the grid");
+        warn(io::printable_name(options.mesh.path) +
+             ": no voxel is inside it; it may be thinner than a voxel, or beside the grid");
     if (options.json) {
         print_json(options, *file, input->report.open_edges);
     } else {

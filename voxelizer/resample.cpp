@@ -122,24 +122,33 @@ Status resample(const SampledVolume& volume, double threshold, const glm::dmat4&
     return stop.stop_requested() ? Status::Cancelled : Status::Ok;
 }
 
-double otsu_threshold(std::span<const float> values) {
-    if (values.empty()) return 0.0;
-    const auto [least_at, most_at] = std::ranges::minmax_element(values);
-    const double least = double{*least_at};
-    const double span = double{*most_at} - least;
+double otsu_threshold(std::span<const std::span<const float>> frames) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    double total = 0.0;
+    for (const std::span<const float> values : frames) {
+        if (values.empty()) continue;
+        const auto [least_at, most_at] = std::ranges::minmax_element(values);
+        least = std::min(least, double{*least_at});
+        most = std::max(most, double{*most_at});
+        total += static_cast<double>(values.size());
+    }
+    if (total == 0.0) return 0.0;
+    const double span = most - least;
     if (span == 0.0) return least;
 
     constexpr std::size_t kSteps = 256;
     std::vector<std::uint64_t> histogram(kSteps);
-    for (const float value : values) {
-        const auto step = static_cast<std::size_t>((double{value} - least) / span * double{kSteps});
-        ++histogram[std::min(step, kSteps - 1)];
+    for (const std::span<const float> values : frames) {
+        for (const float value : values) {
+            const auto step = static_cast<std::size_t>((double{value} - least) / span * double{kSteps});
+            ++histogram[std::min(step, kSteps - 1)];
+        }
     }
     double sum = 0.0;
     for (std::size_t step = 0; step < kSteps; ++step) {
         sum += static_cast<double>(step) * static_cast<double>(histogram[step]);
     }
-    const auto total = static_cast<double>(values.size());
     double below = 0.0;      // How many.
     double below_sum = 0.0;  // Their steps.
     double best = -1.0;

@@ -38,9 +38,9 @@ Status resample_rows(const SampledVolume& volume, double threshold, const glm::d
 Status resample(const SampledVolume& volume, double threshold, const glm::dmat4& to_volume, const Lattice& lattice,
                 BitVolumeView out, unsigned threads = 1, const std::stop_token& stop = {});
 
-/// The threshold that parts `values` into two groups, each as uniform as can be: Otsu (1979), A threshold selection
-/// method from gray-level histograms, over 256 steps from the least to the most value. What is at least the threshold
-/// is the upper group. The least value itself when all are equal or there are none (0).
-double otsu_threshold(std::span<const float> values);
+/// The threshold that parts all values of `frames` into two groups, each as uniform as can be: Otsu (1979), A threshold
+/// selection method from gray-level histograms, over 256 steps from the least to the most value. What is at least the
+/// threshold is the upper group. The least value itself when all are equal or there are none (0).
+double otsu_threshold(std::span<const std::span<const float>> frames);
 
 }  // namespace xorvox

@@ -4,6 +4,7 @@
 // texture coordinates, and the colour between those of the corners. What is missing counts as white.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -35,8 +36,12 @@ struct SurfaceColors {
     std::vector<SurfaceMaterial> materials;     ///< Empty: one that is white.
     std::vector<Image> images;
 
-    /// Whether there is anything but white to see.
-    bool empty() const { return corner_colors.empty() && materials.empty(); }
+    /// Whether nothing of it is coloured: no corner, and no material by a factor or an image.
+    bool is_white() const {
+        return corner_colors.empty() && std::ranges::all_of(materials, [](const SurfaceMaterial& material) {
+                   return material.factor == glm::vec3(1.0f) && material.image == SurfaceMaterial::kNoImage;
+               });
+    }
 };
 
 }  // namespace xorvox

@@ -49,8 +49,10 @@ constexpr std::array<std::uint8_t, 3> channel_bits(PixelFormat format) {
 
 /// What is taken apart, and where the planes are; the drawing at the head of this file.
 struct BitPlaneLayout {
+    static constexpr std::uint32_t kMostColumns = 0xffff;  ///< Of a panel.
+
     PixelFormat format = PixelFormat::Mono1;
-    std::uint32_t columns = 0;  ///< Of a row; at least 1.
+    std::uint32_t columns = 0;  ///< Of a row; 1 … kMostColumns.
     std::uint32_t rows = 1;     ///< One after the other, each beginning at a byte: one row, a panel's, a slice.
     std::uint32_t shown = 8;    ///< Bits a channel, 1 … 8: shown_bit_planes(display).
 
@@ -59,17 +61,23 @@ struct BitPlaneLayout {
     }
     constexpr std::uint32_t row_planes() const { return channel_planes(0) + channel_planes(1) + channel_planes(2); }
     constexpr std::size_t plane_bytes() const { return (std::size_t{columns} + 7) / 8; }
-    /// Of all planes of all rows.
-    constexpr std::size_t bytes() const { return rows * row_planes() * plane_bytes(); }
-    /// Of the pixels: as on the wire.
+    /// Of all planes of all rows; SIZE_MAX for more than that, and for more columns than may be.
+    constexpr std::size_t bytes() const { return of_all_rows(std::uint64_t{row_planes()} * plane_bytes()); }
+    /// Of the pixels: as on the wire. All of them as bytes().
     constexpr std::size_t pixel_row_bytes() const { return (std::size_t{columns} * bits_per_pixel(format) + 7) / 8; }
-    constexpr std::size_t pixel_bytes() const { return rows * pixel_row_bytes(); }
+    constexpr std::size_t pixel_bytes() const { return of_all_rows(pixel_row_bytes()); }
 
     /// Where plane `plane` of a channel begins: 0 is the most significant, below channel_planes(channel).
     constexpr std::size_t offset(std::uint32_t row, std::uint32_t channel, std::uint32_t plane) const {
         std::size_t before = std::size_t{row} * row_planes() + plane;
         for (std::uint32_t c = 0; c < channel; ++c) before += channel_planes(c);
         return before * plane_bytes();
+    }
+
+private:
+    constexpr std::size_t of_all_rows(std::uint64_t row_bytes) const {
+        const std::uint64_t all = columns <= kMostColumns ? row_bytes * rows : SIZE_MAX;
+        return static_cast<std::size_t>(std::min<std::uint64_t>(all, SIZE_MAX));
     }
 };
 

@@ -137,7 +137,7 @@ private:
             if (!(gain >= 0.0f && gain <= 1.0f)) {
                 return wrong(line, fmt::format("{} is {}; a gain is 0 to 1", names_[i], shown(fields[i])));
             }
-            led.gain[static_cast<int>(i - kRed)] = gain;
+            led.gain[static_cast<int>(i - kRed)] = gain + 0.0f;  // -0 is 0.
         }
         leds_.push_back({led, line});
         return {};

@@ -87,18 +87,23 @@ FrameClient::FrameClient(Descriptor socket, FrameSegment segment, const FrameTer
       reader_(segment_.exchange(), FrameSegment::kPages) {}
 
 bool FrameClient::poll() {
-    bool alive = true;
-    for (int i = 0; alive && i < kMessagesAtOnce; ++i) {
+    bool heard = true;
+    for (int i = 0; heard && (gone_ || i < kMessagesAtOnce); ++i) {
         // Room for one byte more tells a message that is too long. Descriptors that come with it are dropped unseen.
         std::array<std::byte, sizeof(xorvox_frames_request) + 1> message;
         const ssize_t size = ::recv(socket_.get(), message.data(), message.size(), MSG_DONTWAIT);
         if (size < 0 && errno == EINTR) continue;
         if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
-        alive = size > 0 && answer(std::span(message).first(static_cast<std::size_t>(size)));
+        // Of a client that left replies unread this comes first, then its requests.
+        if (size < 0 && errno == ECONNRESET && !gone_) {
+            gone_ = true;
+            continue;
+        }
+        heard = size > 0 && answer(std::span(message).first(static_cast<std::size_t>(size)));
     }
     // Also of a client that is gone: what it published last is whole.
     take_latest();
-    return alive;
+    return heard && !gone_;
 }
 
 bool FrameClient::answer(std::span<const std::byte> message) {
@@ -117,7 +122,11 @@ bool FrameClient::answer(std::span<const std::byte> message) {
     reply.status = static_cast<std::uint32_t>(status);
     reply.page = request.page;
     reply.sequence = status == XORVOX_FRAMES_OK ? static_cast<std::uint32_t>(statistics_.frames()) : 0;
-    return send_message(socket_.get(), reply, -1) && goes_on(status);
+    if (!gone_ && !send_message(socket_.get(), reply, -1)) {
+        gone_ = true;
+        ::shutdown(socket_.get(), SHUT_RDWR);  // So that the requests which are there are the last ones.
+    }
+    return goes_on(status);
 }
 
 void FrameClient::take_latest() {

@@ -53,8 +53,9 @@ public:
     FrameClient(Descriptor socket, FrameSegment segment, const FrameTerms& terms, Framebuffer& frames,
                 ShareStatistics& statistics);
 
-    /// Takes the frames that were published and replies to messages, at most kMessagesAtOnce. False: the connection has
-    /// come to its end, by the client's doing or because it does not keep to the protocol.
+    /// Takes the frames that were published and replies to messages, at most kMessagesAtOnce; of a client that is gone
+    /// all of them. False: the connection has come to its end, by the client's doing or because it does not keep to the
+    /// protocol.
     bool poll();
 
     int socket() const { return socket_.get(); }
@@ -63,6 +64,7 @@ public:
 private:
     static constexpr int kMessagesAtOnce = 64;
 
+    /// Whether its client is heard further.
     bool answer(std::span<const std::byte> message);
     void take_latest();
     void take(std::uint32_t page, std::uint64_t tag);
@@ -74,6 +76,7 @@ private:
     ShareStatistics& statistics_;
     PageReader<> reader_;
     std::uint32_t seen_ = kNoPage;  ///< What the reader has.
+    bool gone_ = false;             ///< Nobody reads replies any more.
 };
 
 }  // namespace xorvox::host

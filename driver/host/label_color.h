@@ -33,6 +33,9 @@ public:
     LabelColor(std::shared_ptr<const SampledVolume> volume, const glm::dmat4& placement,
                std::span<const glm::dvec3> colors);
 
+    /// Where the volume lies from now on; no thread may evaluate meanwhile.
+    void set_placement(const glm::dmat4& placement) { place_.set(placement); }
+
     void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override;
 
 private:

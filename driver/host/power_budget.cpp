@@ -70,15 +70,17 @@ PowerBudget::PowerBudget(const DisplayDescription& display) : meter_(display) {
 }
 
 bool PowerBudget::allows(std::span<const std::byte> frame) {
-    if (!is_limited()) return true;
+    if (limit_ma_ <= 0.0) return true;
     // A little below the limit, so that levels which are rounded up do not make another try needed.
     constexpr double kRoom = 0.98;
     const double ma = meter_.most_ma(frame);
     const double fitting = ma > 0.0 ? kRoom * limit_ma_ / ma : static_cast<double>(kRelease);
-    const bool helps = tries_ == 0 || ma < last_ma_;
-    last_ma_ = ma;
-    if (ma > limit_ma_ && helps && ++tries_ < kMostTries) {
-        factor_ *= static_cast<float>(fitting);
+    if (tries_ > 0 && ma >= last_ma_) {
+        factor_ = last_factor_;
+    } else if (ma > limit_ma_ && factor_ > kLeast && ++tries_ < kMostTries) {
+        last_ma_ = ma;
+        last_factor_ = factor_;
+        factor_ = std::max(kLeast, factor_ * static_cast<float>(fitting));
         return false;
     }
     tries_ = 0;

@@ -43,19 +43,20 @@ public:
     /// By how much the factor rises from frame to frame at most: doubled in 35 frames.
     static constexpr float kRelease = 1.02f;
 
+    /// The least factor: with it even the steepest response shows set voxels as faint as it can.
+    static constexpr float kLeast = 0x1p-24f;
+
+    /// factor() is always 1 where the display does not tell both limit_ma and led_ma.
     explicit PowerBudget(const DisplayDescription& display);
 
-    /// Whether the display has a limit that can be kept: limit_ma and led_ma are known. Else factor() is always 1.
-    bool is_limited() const { return limit_ma_ > 0.0; }
-
-    /// By which brightness is to be multiplied for the next frame: above 0, at most 1.
+    /// By which brightness is to be multiplied for the next frame: kLeast … 1.
     float factor() const { return factor_; }
 
     /// Says whether `frame`, painted with factor(), may be shown, and sets factor() for the next one, at most kRelease
     /// times higher and not so high that a frame like this one would draw too much. False: it draws too much; factor()
-    /// is lower now, paint it again. After kMostTries in a row, or one that did
-    /// not help, the frame is allowed: set voxels are never quite dark,
-    /// and what then is too much the device dims.
+    /// is lower now, paint it again. After kMostTries in a row, or one that did not help, the frame is allowed: set
+    /// voxels are never quite dark, and what then is too much the device dims. A try that did not help leaves factor()
+    /// as it was before it.
     bool allows(std::span<const std::byte> frame);
     static constexpr int kMostTries = 8;
 
@@ -64,7 +65,9 @@ private:
     double limit_ma_ = 0.0;
     float factor_ = 1.0f;
     int tries_ = 0;
-    double last_ma_ = 0.0;  ///< Of the try before.
+    // Of the try before.
+    double last_ma_ = 0.0;
+    float last_factor_ = 1.0f;
 };
 
 }  // namespace xorvox::host

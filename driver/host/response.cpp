@@ -43,6 +43,7 @@ ChannelLevels::ChannelLevels(const Light& of, std::uint32_t bits)
 }
 
 float ChannelLevels::curved_place(float light) const {
+    if (!(light > 0.0f)) return 0.0f;  // Of -0, too, whose bits are those of no bucket.
     const std::uint32_t bucket = std::bit_cast<std::uint32_t>(light) >> kBucketShift;
     std::uint32_t level =
         first_[bucket > kFirstBucket ? std::min<std::size_t>(bucket - kFirstBucket, kBuckets - 1) : 0];

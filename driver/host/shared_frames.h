@@ -99,8 +99,8 @@ typedef struct xorvox_frames_panel {
     uint32_t offset_bytes; /* 12  Of its first row in a slice. */
 } xorvox_frames_panel;
 
-/* The head of a segment. Written once by the server; of the writer are only `tag` and, through xorvox_frames_begin()
-   and xorvox_frames_end(), `latest` and `released`. */
+/* The head of a segment. The server writes it once, and afterwards `released` and the count in `latest`, through which
+   the two ends exchange pages. A program writes `tag` and `latest` alone, by xorvox_frames_end(). */
 typedef struct xorvox_frames_segment {
     uint8_t magic[8];           /*   0  XORVOX_FRAMES_MAGIC */
     uint32_t version;           /*   8 */
@@ -256,7 +256,10 @@ static inline int xorvox_frames_map(xorvox_frames* frames, int memory) {
     if (memcmp(segment->magic, XORVOX_FRAMES_MAGIC, 8) != 0 || segment->version != XORVOX_FRAMES_VERSION ||
         segment->segment_bytes != frames->hello.segment_bytes || segment->frame_bytes != frames->hello.frame_bytes ||
         segment->pages != frames->hello.pages || segment->pages < 1 || segment->pages > XORVOX_FRAMES_MAX_PAGES ||
-        segment->panel_count < 1 || segment->panel_count > XORVOX_FRAMES_MAX_PANELS) {
+        segment->panel_count < 1 || segment->panel_count > XORVOX_FRAMES_MAX_PANELS ||
+        segment->header_bytes < sizeof(xorvox_frames_segment) || segment->header_bytes > segment->segment_bytes ||
+        segment->page_stride_bytes < segment->frame_bytes ||
+        segment->page_stride_bytes > (segment->segment_bytes - segment->header_bytes) / segment->pages) {
         return XORVOX_FRAMES_NO_SERVER;
     }
     return XORVOX_FRAMES_OK;

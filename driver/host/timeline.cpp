@@ -79,7 +79,7 @@ Keyframe frame_at(std::span<const Keyframe> track, double seconds) {
 
 glm::dmat4 pose_at(const Timeline& timeline, double seconds, const glm::dvec3& middle_mm) {
     const double duration = timeline.duration_seconds();
-    if (timeline.loop && duration > 0.0) seconds = std::fmod(seconds, duration);
+    if (duration > 0.0) seconds = timeline.loop ? std::fmod(seconds, duration) : std::min(seconds, duration);
     const Keyframe motion = frame_at(timeline.motion, seconds);
     const Keyframe camera = frame_at(timeline.camera, seconds);
     const glm::dmat4 one(1.0);

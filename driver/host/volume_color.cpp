@@ -30,6 +30,11 @@ VolumeColor::VolumeColor(std::shared_ptr<const SampledVolume> volume, const glm:
     transfer_ = default_transfer(double{*least}, double{*most});
 }
 
+void VolumeColor::set_placement(const glm::dmat4& placement) {
+    place_.set(placement);
+    if (labels_) labels_->set_placement(placement);
+}
+
 void VolumeColor::evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const {
     const std::array<float, 256>& light = srgb_light();
     switch (volume_->kind) {

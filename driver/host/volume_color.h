@@ -27,6 +27,9 @@ public:
     VolumeColor(std::shared_ptr<const SampledVolume> volume, const glm::dmat4& placement,
                 std::optional<TransferFunction> transfer = std::nullopt);
 
+    /// Where the volume lies from now on; no thread may evaluate meanwhile.
+    void set_placement(const glm::dmat4& placement);
+
     void evaluate(std::span<const glm::vec3> points, std::span<glm::vec3> colors) const override;
     std::optional<glm::vec3> constant() const override;
 

@@ -20,6 +20,8 @@ public:
     VolumePlacement(const SampledVolume& volume, const glm::dmat4& placement)
         : placement_(placement), last_(volume.nx - 1.0, volume.ny - 1.0, volume.nz - 1.0) {}
 
+    void set(const glm::dmat4& placement) { placement_ = placement; }
+
     /// The place among the voxels of a point of the box; what is outside, or no number, is moved to the border.
     glm::dvec3 at(const glm::vec3& point) const {
         const glm::dvec3 p(point);

@@ -151,5 +151,6 @@ TEST_CASE("what cannot be played is refused with what to do", "[cli]") {
     refused({"--camera", "at=0 move=0,0,0"}, "--camera: keyframe 1: found \"move=0,0,0\"");
     refused({"--timeline", "/nonexistent/t.toml"}, "--timeline: /nonexistent/t.toml: it cannot be opened");
     refused({"--timeline", kDuck}, "duck.ply: larger than 1 MiB, which no timeline is");
+    refused({"--timeline", "/nonexistent/\x1b[2J"}, "--timeline: /nonexistent/\\x1b[2J: it cannot be opened");
     refused({"--fps", "0", "--spin", "1"}, "'0' is not a number above zero");
 }

@@ -42,3 +42,21 @@ TEST_CASE("uniformity refuses displays that there are not, and no frames", "[cli
     CHECK(run_program({"uniformity", "candle", "--frames", "0"}).status == 2);
     CHECK(run_program({"uniformity", "candle", "--frames", "1025"}).status == 2);
 }
+
+TEST_CASE("uniformity refuses a display that does not fit into memory", "[cli]") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    XORVOX_SKIP("a sanitizer's shadow memory does not fit into a limited address space");
+#endif
+    const Folder folder;
+    const std::string huge = folder.file("huge.toml", R"(name = "huge"
+kind = "stacked-planes"
+format = "rgb888"
+slices = 512
+cycles_per_second = 20
+plane_pitch_mm = 1
+panel = [{ columns = 512, rows = 512, column_pitch_mm = 1, row_pitch_mm = 1 }]
+)");
+    const Outcome outcome = run_program({"uniformity", huge}, std::uint64_t{1} << 30);
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.err, Contains("the display huge needs ") && Contains("choose fewer voxels"));
+}

@@ -32,7 +32,66 @@ std::string ramp_nrrd() {
     return bytes;
 }
 
+/// A NRRD of `frames`, which follow each other in time, of 4 × 4 × 4 floats each, half of them 0 and half a value.
+std::string halves_nrrd(const std::vector<float>& frames) {
+    std::string bytes = "NRRD0004\ntype: float\ndimension: 4\nsizes: 4 4 4 " + std::to_string(frames.size()) +
+                        "\nkinds: domain domain domain time\nendian: little\nencoding: raw\n\n";
+    for (const float most : frames) {
+        for (int n = 0; n < 64; ++n) {
+            const float value = n % 4 < 2 ? 0.0f : most;
+            bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+        }
+    }
+    return bytes;
+}
+
 }  // namespace
+
+TEST_CASE("volumes that follow each other have one threshold, found in all of them", "[cli]") {
+    const Folder folder;
+    const std::string faint = folder.file("faint.nrrd", halves_nrrd({10}));
+    const std::string bright = folder.file("bright.nrrd", halves_nrrd({100}));
+    const std::string both = folder.file("both.nrrd", halves_nrrd({10, 100}));
+    // Alone, the faint one is parted between 0 and 10; with the bright one, between 10 and 100.
+    const double threshold = number(succeeds({"info", both, "--json"}).out, "threshold");
+    CHECK(threshold > 10.0);
+    CHECK(number(succeeds({"info", faint, "--json"}).out, "threshold") < 10.0);
+    const auto inside = [&](const std::vector<std::string>& files, const std::string& seconds) {
+        std::vector<std::string> arguments{"play", "--display", "cube8-595", "--seconds", seconds, "--json"};
+        arguments.insert(arguments.end(), files.begin(), files.end());
+        const Outcome outcome = run_program(arguments);
+        REQUIRE(outcome.status == 0);
+        return number(outcome.out, "inside");
+    };
+    CHECK(inside({faint, bright}, "0.1") == 0);
+    CHECK(inside({faint, bright}, "0.2") > 0);
+    CHECK(inside({both}, "0.1") == 0);
+    CHECK(inside({both}, "0.2") > 0);
+}
+
+TEST_CASE("options of meshes with volumes, and of volumes with meshes, are refused before any file is made", "[cli]") {
+    const Folder folder;
+    const std::string volume = folder.file("ramp.nrrd", ramp_nrrd());
+    const std::string mesh = folder.file("cube.obj", cube_obj(1.0));
+    // Nothing can be written there, which would be found later.
+    const std::vector<std::string> to{"--display", "cube8-595", "--png", folder.path("none/picture.png")};
+    const auto refused_on = [&](std::vector<std::string> arguments, const std::string& message) {
+        arguments.insert(arguments.end(), to.begin(), to.end());
+        refused(arguments, {message});
+    };
+    const std::string of_meshes = "--unit, --up, --strict and --animation are for meshes, and ";
+    refused_on({"show", volume, "--unit", "cm"}, of_meshes);
+    refused_on({"show", volume, "--up", "y"}, of_meshes);
+    refused_on({"show", volume, "--strict"}, of_meshes);
+    refused_on({"play", volume, "--animation", "0", "--spin", "6"}, of_meshes);
+    refused_on({"play", mesh, mesh, "--animation", "0"}, "--animation is for one file alone");
+    refused_on({"play", mesh, volume}, "a sequence has one kind");
+    for (const std::vector<std::string>& option :
+         {std::vector<std::string>{"--threshold", "1"}, {"--volume", "0"}, {"--transfer", "0:black,1:white"}}) {
+        refused_on({"show", mesh, option[0], option[1]}, "--threshold, --transfer and --volume are for volumes, and ");
+    }
+    refused_on({"show", volume, "--transfer", "0:blak"}, "--transfer: ");
+}
 
 TEST_CASE("a mesh written in any format converts to the same bits", "[cli]") {
     const Folder folder;

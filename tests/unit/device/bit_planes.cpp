@@ -231,5 +231,8 @@ TEST_CASE("bit planes are not made where they have no room, nor of what is no la
     CHECK(refused({PixelFormat::Rgb565, 16, 2, 0}, pixels.size(), planes.size()));
     CHECK(refused({PixelFormat::Rgb565, 1, 1, 9}, pixels.size(), planes.size()));
     CHECK(refused({PixelFormat{0}, 16, 2, 3}, pixels.size(), planes.size()));
+    CHECK(refused({PixelFormat::Rgb565, 0x10000, 2, 3}, pixels.size(), planes.size()));
+    CHECK(refused({PixelFormat::Rgb888, 16, 0x8000'0000, 8}, pixels.size(), planes.size()));
+    CHECK(BitPlaneLayout{PixelFormat::Rgb888, 16, 0x8000'0000, 8}.bytes() == std::size_t{0x8000'0000} * 24 * 2);
     CHECK(device::split_bit_planes(layout, pixels, planes) == Status::Ok);
 }

@@ -1,5 +1,6 @@
 #include "driver/host/calibration.h"
 
+#include <cmath>
 #include <string>
 
 #include "tests/catch.h"
@@ -47,6 +48,15 @@ TEST_CASE("a calibration file names LEDs, by plane or by panel") {
     CHECK(panels->leds()[0].gain == glm::vec3(0.3f, 0.2f, 0.1f));
 
     CHECK(Calibration::parse(kPlaneHead, stack())->leds().empty());
+}
+
+TEST_CASE("a gain of minus zero is zero") {
+    const auto read = Calibration::parse(kPlaneHead + "0,0,0,-0,-0.0,-0e5\n", stack());
+    REQUIRE(read);
+    for (int c = 0; c < 3; ++c) {
+        CHECK(read->leds()[0].gain[c] == 0.0f);
+        CHECK_FALSE(std::signbit(read->leds()[0].gain[c]));
+    }
 }
 
 TEST_CASE("what is wrong in a calibration file is told by its line") {

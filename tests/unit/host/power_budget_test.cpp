@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "driver/device/config.h"
@@ -155,8 +156,8 @@ TEST_CASE("the same frame again and again settles just below the limit and stays
 TEST_CASE("without a limit nothing is dimmed, and where dimming cannot help it ends") {
     Dimmed unlimited(limited(0.0));
     unlimited.show(16);
-    CHECK_FALSE(unlimited.budget.is_limited());
     CHECK(unlimited.factor == 1.0f);
+    CHECK(unlimited.tries == 1);
 
     DisplayDescription one_bit = limited(10.0);
     one_bit.format = PixelFormat::Mono1;
@@ -167,5 +168,30 @@ TEST_CASE("without a limit nothing is dimmed, and where dimming cannot help it e
 
     DisplayDescription unknown = limited(10.0);
     unknown.power.led_ma = 0.0;
-    CHECK_FALSE(PowerBudget(unknown).is_limited());
+    Dimmed unmeasured(unknown);
+    unmeasured.show(16);
+    CHECK(unmeasured.tries == 1);
+}
+
+TEST_CASE("frames that dimming cannot help stay lit however many they are, and light comes back after them") {
+    // At the faintest level white draws 3840 / 255 mA, or all of it where there is one level.
+    for (const auto& [format, limit_ma] :
+         {std::pair(PixelFormat::Rgb888, 10.0), std::pair(PixelFormat::Mono1, 300.0)}) {
+        DisplayDescription display = limited(limit_ma);
+        display.format = format;
+        CAPTURE(std::string(to_string(format)));
+        Dimmed shown(display);
+        shown.show(16);
+        const double least_ma = shown.ma;
+        CHECK(least_ma > limit_ma);
+        for (int i = 0; i < 1000; ++i) {
+            shown.show(16);
+            REQUIRE(shown.ma == least_ma);
+            REQUIRE(shown.factor > 0.0f);
+        }
+        for (int i = 0; i < 400; ++i) shown.show(1);
+        CHECK(shown.ma > 0.0);
+        // One column white: 240 mA; of one LED a pixel 80 mA.
+        CHECK(shown.factor > (format == PixelFormat::Mono1 ? 0.99f : 0.9f * 10.0f / 240.0f));
+    }
 }

@@ -36,6 +36,7 @@ TEST_CASE("a place among the levels is the level below and the part of the way i
             for (std::uint32_t level = 0; level <= levels.most(); ++level) {
                 CHECK(levels.place(levels.light(level)) == static_cast<float>(level));
             }
+            CHECK(levels.place(-0.0f) == 0.0f);
             for (int i = 0; i < 3000; ++i) {
                 const auto wanted = static_cast<float>(i % 2 == 0 ? std::exp2(exponent(random)) : (i + 0.5) / 3000.0);
                 std::uint32_t below = 0;

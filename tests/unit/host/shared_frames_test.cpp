@@ -1,12 +1,16 @@
 // Shared frames as programs that keep to the rules see them; those that do not: shared_frames_hostile_test.cpp.
 #include "driver/host/shared_frames.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <string>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "driver/host/frame_share.h"
 #include "tests/golden/golden.h"
@@ -112,6 +116,25 @@ TEST_CASE("shared frames: what was published by atomics last is taken, though it
     drawer.reset();
     rig.server->poll(rig.now_ns);
     CHECK(all_are(rig.frames.latest(), 5));
+}
+
+TEST_CASE("shared frames: what was published by messages last is taken, though its program ended with replies unread") {
+    ShareRig rig;
+    const auto drawer = rig.drawer();
+    const auto publish = [&](std::uint32_t page) {
+        fill(drawer->page(page), static_cast<std::uint8_t>(1 + page));
+        const xorvox_frames_request request = drawer->request(page);
+        REQUIRE(drawer->send(&request, sizeof request));
+    };
+    publish(0);
+    rig.server->poll(rig.now_ns);
+    publish(1);
+    publish(2);
+    drawer->leave();
+    rig.server->poll(rig.now_ns);
+    CHECK(all_are(rig.frames.latest(), 3));
+    CHECK(rig.server->statistics().by_message == 3);
+    CHECK(rig.drawer() != nullptr);
 }
 
 TEST_CASE("shared frames: a segment tells what a display is and where its rows are") {
@@ -258,6 +281,34 @@ TEST_CASE("shared frames: paths where no socket can be are refused with the reas
     CHECK_THAT(message(rig.folder / std::string(120, 'x')), Catch::Contains("has at most 107"));
     CHECK_THAT(message(""), Catch::Contains("empty"));
     CHECK_THAT(message(std::string("a\0b", 3)), Catch::Contains("byte 0"));
+}
+
+TEST_CASE("shared frames: the C header maps no segment whose pages do not fit into it") {
+    ShareRig rig;
+    const auto drawer = rig.drawer();
+    const auto map = [&](const std::function<void(xorvox_frames_segment&)>& spoil) {
+        xorvox_frames frames{};
+        frames.socket = -1;
+        frames.hello = drawer->frames().hello;
+        const int memory = ::memfd_create("segment", MFD_CLOEXEC);
+        REQUIRE(::ftruncate(memory, static_cast<off_t>(frames.hello.segment_bytes)) == 0);
+        alignas(xorvox_frames_segment) std::array<std::byte, sizeof(xorvox_frames_segment)> head{};
+        std::memcpy(head.data(), drawer->frames().segment, head.size());
+        spoil(*reinterpret_cast<xorvox_frames_segment*>(head.data()));
+        REQUIRE(::pwrite(memory, head.data(), head.size(), 0) == static_cast<ssize_t>(head.size()));
+        const int status = xorvox_frames_map(&frames, memory);
+        ::close(memory);
+        xorvox_frames_close(&frames);
+        return status;
+    };
+    using Segment = xorvox_frames_segment;
+    CHECK(map([](Segment&) {}) == XORVOX_FRAMES_OK);
+    CHECK(map([](Segment& s) { s.header_bytes = 8; }) == XORVOX_FRAMES_NO_SERVER);
+    CHECK(map([](Segment& s) { s.header_bytes += 1; }) == XORVOX_FRAMES_NO_SERVER);
+    CHECK(map([](Segment& s) { s.header_bytes = 0xffff'ffff; }) == XORVOX_FRAMES_NO_SERVER);
+    CHECK(map([](Segment& s) { s.page_stride_bytes = s.frame_bytes - 1; }) == XORVOX_FRAMES_NO_SERVER);
+    CHECK(map([](Segment& s) { s.page_stride_bytes += 1; }) == XORVOX_FRAMES_NO_SERVER);
+    CHECK(map([](Segment& s) { s.page_stride_bytes = std::uint64_t{1} << 63; }) == XORVOX_FRAMES_NO_SERVER);
 }
 
 TEST_CASE("shared frames: the C header says why it cannot connect") {

@@ -138,6 +138,17 @@ TEST_CASE("a loop begins anew at its end, and everything else stays") {
     is_near(shown(timeline, 7.0, {0, 0, 0}), {10, 0, 0});
 }
 
+TEST_CASE("a timeline that ends before its last keyframe stays as it is then, or begins anew") {
+    Timeline timeline;
+    timeline.motion = track("at=0; at=2 move=10,0,0");
+    timeline.camera = track("at=0; at=4 center=0,4,0", TrackKind::Camera);
+    timeline.seconds = 1.0;
+    is_near(shown(timeline, 0.5, {0, 0, 0}), {2.5, -0.5, 0});
+    is_near(shown(timeline, 3.5, {0, 0, 0}), {5, -1, 0});
+    timeline.loop = true;
+    is_near(shown(timeline, 3.5, {0, 0, 0}), {2.5, -0.5, 0});
+}
+
 TEST_CASE("a typed keyframe keeps what it does not name") {
     const auto read = track(" at=0 move=1,2,3 scale=2;at=1 turn=0,90,0 ; at=2 ease=curve scale=1e-3");
     REQUIRE(read.size() == 3);

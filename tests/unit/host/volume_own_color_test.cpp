@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "driver/host/color_space.h"
 #include "driver/host/label_color.h"
 #include "tests/catch.h"
@@ -64,6 +66,26 @@ TEST_CASE("volume colour: values go through the transfer function, mixed between
     CHECK(at(volume, 0.75f, grey) == glm::vec3(1.0f));
     CHECK(at(volume, 0.25f) == glm::vec3(linear_from_hex(0x205cff)));
     CHECK(at(volume, 0.75f) == glm::vec3(linear_from_hex(0xffd400)));
+}
+
+TEST_CASE("volume colour: a volume that is placed anew has the colours of that place") {
+    const auto values = two_voxels(VolumeKind::Scalar);
+    values->values = {100, 200};
+    const auto labels = two_voxels(VolumeKind::Labels);
+    labels->values = {1, 2};
+    const glm::dmat4 along = box_to_volume({0, 0, 0}, {2, 1, 1}, glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5)));
+    const glm::dmat4 moved = glm::translate(along, glm::dvec3(0.25, 0.0, 0.0));
+    const std::vector<glm::vec3> points{{0.1f, 0.5f, 0.5f}, {0.4f, 0.5f, 0.5f}, {0.9f, 0.5f, 0.5f}};
+    for (const auto& volume : {values, labels}) {
+        VolumeColor field(volume, along);
+        std::vector<glm::vec3> before(points.size()), after(points.size()), made(points.size());
+        field.evaluate(points, before);
+        field.set_placement(moved);
+        field.evaluate(points, after);
+        VolumeColor(volume, moved).evaluate(points, made);
+        CHECK(after == made);
+        CHECK(after != before);
+    }
 }
 
 TEST_CASE("volume colour: binary volumes are white, everywhere the same") {

@@ -226,14 +226,26 @@ TEST_CASE("resample: shapes that do not fit are refused") {
     CHECK(bits.count() == 0);
 }
 
+namespace {
+double otsu(std::span<const float> values) {
+    return otsu_threshold({&values, 1});
+}
+}  // namespace
+
 TEST_CASE("otsu: the threshold parts two groups, and is the least value where there is one") {
     std::vector<float> values(900, 10.0f);
     values.insert(values.end(), 100, 200.0f);
-    const double threshold = otsu_threshold(values);
+    const double threshold = otsu(values);
     CHECK(threshold > 10.0);
     CHECK(threshold <= 200.0);
     CHECK(threshold == Approx(105.0).margin(2.0));
-    CHECK(otsu_threshold(std::vector<float>(5, 3.0f)) == 3.0);
+    CHECK(otsu(std::vector<float>(5, 3.0f)) == 3.0);
+    CHECK(otsu({}) == 0.0);
+    // Frames count together.
+    const std::vector<float> low(30, 1.0f);
+    const std::vector<float> high(10, 9.0f);
+    const std::vector<std::span<const float>> frames{low, {}, high, low};
+    CHECK(otsu_threshold(frames) == Approx(5.0).margin(0.1));
     CHECK(otsu_threshold({}) == 0.0);
     std::mt19937 random(1);
     values.clear();
@@ -241,7 +253,7 @@ TEST_CASE("otsu: the threshold parts two groups, and is the least value where th
         const float blur = static_cast<float>(random() % 1000 + random() % 1000 + random() % 1000) / 100.0f;
         values.push_back(n % 4 == 0 ? 60.0f + blur : 10.0f + blur);
     }
-    CHECK(otsu_threshold(values) == Approx(50.0).margin(5.0));
+    CHECK(otsu(values) == Approx(50.0).margin(5.0));
     const std::vector<float> extremes{-3e38f, 3e38f, 3e38f};
-    CHECK(std::isfinite(otsu_threshold(extremes)));
+    CHECK(std::isfinite(otsu(extremes)));
 }
