@@ -54,7 +54,7 @@ Expected<void> VolumeContent::draw(double seconds, const glm::dmat4& pose, BitVo
 }
 
 bool VolumeContent::has_own_color() const {
-    return std::ranges::any_of(frames_, [](const auto& volume) { return volume->kind != VolumeKind::Binary; });
+    return std::ranges::all_of(frames_, [](const auto& volume) { return volume->kind != VolumeKind::Binary; });
 }
 
 const host::ColorField* VolumeContent::own_color() {

@@ -88,7 +88,7 @@ TEST_CASE("foreign: colours, images and notes come along") {
     // Beside the model there is no such image: the shape is read all the same.
     const auto bare = io::read_scene(kModels + "3DS/test1.3ds", options);
     REQUIRE(bare);
-    CHECK(bare->colors.empty());
+    CHECK(bare->colors.is_white());
     CHECK_THAT(bare->colors_fault, contains("names a file that it needs"));
     CHECK(io::read_mesh(kModels + "3DS/test1.3ds", options));
 }

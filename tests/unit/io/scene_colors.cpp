@@ -47,7 +47,7 @@ TEST_CASE("colors: vertex colours of a PLY are sRGB, of eight bits or 0 to 1, an
     put(folder / "c.ply", ply("ushort", "red", "65535 0 0", "0 0 0"));
     CHECK(scene_of(folder / "c.ply").colors.corner_colors[1].r == 1.0f);
     put(folder / "d.ply", ply("uchar", "quality", "255 0 51", "0 128 255"));
-    CHECK(scene_of(folder / "d.ply").colors.empty());
+    CHECK(scene_of(folder / "d.ply").colors.is_white());
 }
 
 TEST_CASE("colors: a colour that cannot be costs the colours, not the shape") {
@@ -55,7 +55,7 @@ TEST_CASE("colors: a colour that cannot be costs the colours, not the shape") {
     put(folder / "a.ply", ply("float", "red", "0 0 0", "0 2 0"));
     const io::Scene scene = scene_of(folder / "a.ply");
     CHECK(scene.mesh.positions.size() == 3);
-    CHECK(scene.colors.empty());
+    CHECK(scene.colors.is_white());
     CHECK_THAT(scene.colors_fault, contains("a.ply: line 14: entry 1 of element 'vertex' has a colour beyond"));
     put(folder / "a.obj", "v 0 0 0 1 1 7\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     CHECK_THAT(scene_of(folder / "a.obj").colors_fault, contains("a.obj: vertex 1 has a colour that is not in 0 … 1"));
@@ -93,7 +93,7 @@ TEST_CASE("colors: material files and images that are missing or damaged are nam
         put(folder / "a.obj", kObj + faces);
         const io::Scene scene = scene_of(folder / "a.obj");
         CHECK(scene.mesh.view().face_count() == 1);
-        CHECK(scene.colors.empty());
+        CHECK(scene.colors.is_white());
         CHECK(io::read_mesh(folder / "a.obj"));
         return scene.colors_fault;
     };
@@ -193,7 +193,7 @@ TEST_CASE("colors: what is wrong with a glTF's colours is named, and its shape i
         put(folder / "a.glb", file);
         const io::Scene scene = scene_of(folder / "a.glb");
         CHECK(scene.mesh.view().face_count() == 4);
-        CHECK(scene.colors.empty());
+        CHECK(scene.colors.is_white());
         return scene.colors_fault;
     };
     const std::string textured = "{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}";
