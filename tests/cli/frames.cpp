@@ -11,26 +11,11 @@ namespace {
 
 const std::string kDuck = std::string(XORVOX_SOURCE_DIR) + "/examples/duck.ply";
 
-/// A rotor that is small enough to be simulated in an instant.
-const std::string kRotor = R"(
-name = "small-rotor"
-kind = "rotating-panel"
-format = "rgb332"
-slices = 60
-cycles_per_second = 50
-
-[[panel]]
-columns = 33
-rows = 16
-column_pitch_mm = 2
-row_pitch_mm = 2
-)";
-
 }  // namespace
 
 TEST_CASE("uniform light leaves out what bright light shows twice, and is more even", "[cli]") {
     const Folder folder;
-    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string rotor = folder.file("rotor.toml", kSmallRotor);
     const std::string bright = succeeds({"show", kDuck, "--display", rotor, "--json"}).out;
     const std::string uniform = succeeds({"show", kDuck, "--display", rotor, "--light", "uniform", "--json"}).out;
     CHECK(number(uniform, "inside") == number(bright, "inside"));
@@ -41,7 +26,7 @@ TEST_CASE("uniform light leaves out what bright light shows twice, and is more e
 
 TEST_CASE("a model that is sampled from a grid of cubes is not quite the model on the display's own samples", "[cli]") {
     const Folder folder;
-    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string rotor = folder.file("rotor.toml", kSmallRotor);
     const double native = number(succeeds({"show", kDuck, "--display", rotor, "--json"}).out, "inside");
     const double sampled =
         number(succeeds({"show", kDuck, "--display", rotor, "--sampling", "cartesian", "--json"}).out, "inside");
@@ -54,7 +39,7 @@ TEST_CASE("a model that is sampled from a grid of cubes is not quite the model o
 
 TEST_CASE("a model that turns is shown once a cycle, none late, in simulated time", "[cli]") {
     const Folder folder;
-    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string rotor = folder.file("rotor.toml", kSmallRotor);
     const std::string json =
         succeeds({"show", kDuck, "--display", rotor, "--spin", "30", "--seconds", "1", "--json"}).out;
     CHECK(number(json, "frames_presented") == Approx(50).margin(2));
@@ -69,7 +54,7 @@ TEST_CASE("a model that turns is shown once a cycle, none late, in simulated tim
 
 TEST_CASE("a model that turns reaches a display in another program, and every frame is accounted for", "[cli]") {
     const Folder folder;
-    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string rotor = folder.file("rotor.toml", kSmallRotor);
     Background display({"sim", "--display", rotor, "--listen", "tcp:0"});
     const std::string line = display.line().value_or("");
     const std::string address = line.substr(line.rfind("tcp:"));
@@ -102,7 +87,7 @@ TEST_CASE("a display that leaves in the middle of a stream costs the rest, not t
 
 TEST_CASE("a model that turns into a file gives the same recording every time", "[cli]") {
     const Folder folder;
-    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string rotor = folder.file("rotor.toml", kSmallRotor);
     for (const std::string name : {"a", "b"}) {
         succeeds({"show", kDuck, "--display", rotor, "--spin", "30", "--seconds", "0.2", "--to",
                   "file:" + folder.path(name)});
@@ -155,8 +140,8 @@ TEST_CASE("a display whose host fell silent says so when it is asked, and lights
 
 TEST_CASE("a display that is built otherwise than its file says shows its light elsewhere", "[cli]") {
     const Folder folder;
-    const std::string rotor = folder.file("rotor.toml", kRotor);
-    const std::string mirrored = folder.file("mirrored.toml", kRotor + "mirrored = true\nlift_mm = 7\n");
+    const std::string rotor = folder.file("rotor.toml", kSmallRotor);
+    const std::string mirrored = folder.file("mirrored.toml", kSmallRotor + "mirrored = true\nlift_mm = 7\n");
     const auto picture = [&](const std::string& name, const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"pattern", rotor,     "orientation", "--view",          "orthographic",
                                            "--frame", "display", "--png",       folder.path(name), "--json"};
@@ -181,7 +166,7 @@ TEST_CASE("a display that is built otherwise than its file says shows its light 
 
 TEST_CASE("a display that cannot be built as --built says is refused", "[cli]") {
     const Folder folder;
-    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string rotor = folder.file("rotor.toml", kSmallRotor);
     const std::string points = folder.file("points.toml", R"(
 name = "points"
 kind = "free-points"
@@ -216,7 +201,7 @@ rows = 1
 
 TEST_CASE("bench displays tells headroom and resampling for each display", "[cli]") {
     const Folder folder;
-    const std::string rotor = folder.file("rotor.toml", kRotor);
+    const std::string rotor = folder.file("rotor.toml", kSmallRotor);
     const std::string json =
         succeeds({"bench", "displays", kDuck, "--display", rotor, "--display", "cube16-ws2812", "--quick", "--json"})
             .out;

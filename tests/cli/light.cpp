@@ -32,20 +32,8 @@ void refused(const std::string& display, const std::vector<std::string>& more, c
     CHECK_THAT(outcome.err, Catch::Contains(why));
 }
 
-/// A rotor that is small enough to be simulated in an instant, with a supply of 2 A.
-const std::string kRotor = R"(
-name = "small-rotor"
-kind = "rotating-panel"
-format = "rgb332"
-slices = 60
-cycles_per_second = 50
-
-[[panel]]
-columns = 33
-rows = 16
-column_pitch_mm = 2
-row_pitch_mm = 2
-
+/// The small rotor with a supply of 2 A.
+const std::string kRotor = kSmallRotor + R"(
 [power]
 led_ma = 20
 limit_ma = 2000

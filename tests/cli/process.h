@@ -68,6 +68,21 @@ private:
 
 std::string read_file(const std::string& path);
 
+/// A display file of a rotor that is small enough to be simulated in an instant; more tables may follow it.
+inline const std::string kSmallRotor = R"(
+name = "small-rotor"
+kind = "rotating-panel"
+format = "rgb332"
+slices = 60
+cycles_per_second = 50
+
+[[panel]]
+columns = 33
+rows = 16
+column_pitch_mm = 2
+row_pitch_mm = 2
+)";
+
 /// A cube from (0,0,0) to (side,side,side) as OBJ, its sixth face left out on request.
 std::string cube_obj(double side, bool open = false);
 

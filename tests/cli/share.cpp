@@ -39,20 +39,6 @@ double said_lit(const std::string& text) {
     return std::stod(text.substr(text.rfind('\n', at) + 1));
 }
 
-const std::string kRotor = R"(
-name = "small-rotor"
-kind = "rotating-panel"
-format = "rgb332"
-slices = 60
-cycles_per_second = 50
-
-[[panel]]
-columns = 33
-rows = 16
-column_pitch_mm = 2
-row_pitch_mm = 2
-)";
-
 /// The report of `xorvox share`, upon `frames` frames drawn by `program`; what the program said.
 std::string share_with(const std::string& display, const std::string& program, int frames,
                        const std::vector<std::string>& more, std::string& said) {
@@ -79,12 +65,12 @@ std::string share_with(const std::string& display, const std::string& program, i
 
 TEST_CASE("a program in C draws on a display, by message", "[cli]") {
     const Folder folder;
-    const std::string display = GENERATE(std::string("cube16-ws2812"), kRotor);
-    const std::string file = display == kRotor ? folder.file("rotor.toml", kRotor) : display;
+    const std::string display = GENERATE(std::string("cube16-ws2812"), kSmallRotor);
+    const std::string file = display == kSmallRotor ? folder.file("rotor.toml", kSmallRotor) : display;
     std::string said;
     const std::string report = share_with(file, kSpin, 10, {}, said);
     CHECK(number(report, "pixels_lit") == said_lit(said));
-    CHECK(number(report, "pixels_lit") == (display == kRotor ? 60 * 33 : 256));
+    CHECK(number(report, "pixels_lit") == (display == kSmallRotor ? 60 * 33 : 256));
     CHECK(number(report, "by_message") == 10);
     CHECK(number(report, "last_tag") == 9);
     CHECK(number(report, "frames_handed_on") >= 1);
@@ -107,14 +93,14 @@ TEST_CASE("a program in C draws on a display, by atomics", "[cli]") {
 TEST_CASE("a program in Python draws on a display, with a picture of it", "[cli]") {
     if (!has_python()) XORVOX_SKIP("no python3 of version 3.9 or later");
     const Folder folder;
-    const std::string display = GENERATE(std::string("cube16-ws2812"), std::string("cube8-595"), kRotor);
-    const std::string file = display == kRotor ? folder.file("rotor.toml", kRotor) : display;
+    const std::string display = GENERATE(std::string("cube16-ws2812"), std::string("cube8-595"), kSmallRotor);
+    const std::string file = display == kSmallRotor ? folder.file("rotor.toml", kSmallRotor) : display;
     std::string said;
     std::vector<std::string> more;
     if (display == "cube16-ws2812") more = {"--png", folder.path("wave.png"), "--view", "orthographic"};
     const std::string report = share_with(file, kWave, 5, more, said);
     CHECK(number(report, "pixels_lit") == said_lit(said));
-    CHECK(number(report, "pixels_lit") == (display == kRotor ? 60 * 33 : display == "cube8-595" ? 64 : 256));
+    CHECK(number(report, "pixels_lit") == (display == kSmallRotor ? 60 * 33 : display == "cube8-595" ? 64 : 256));
     if (!more.empty()) CHECK(read_file(folder.path("wave.png")).starts_with("\x89PNG"));
 }
 
