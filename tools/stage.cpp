@@ -1,7 +1,10 @@
 #include "tools/stage.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,6 +21,13 @@
 
 namespace xorvox::tools {
 namespace {
+
+/// To begin them takes longer than a small frame.
+unsigned threads_for(const DisplayDescription& display) {
+    constexpr std::size_t kSmall = 500'000;
+    constexpr unsigned kMost = 16;
+    return frame_pixels(display) < kSmall ? 1 : std::clamp(std::thread::hardware_concurrency(), 1u, kMost);
+}
 
 /// All files that are named.
 std::vector<std::string> paths(const StageOptions& options) {
@@ -60,7 +70,7 @@ Expected<std::unique_ptr<Content>> read_volumes(const StageOptions& options, con
     if (!input) return tl::unexpected(input.error());
     if (input->threshold_found) warn(io::printable_name(options.mesh.path) + ": " + describe_threshold(*input));
     return VolumeContent::make(std::move(*input), options.mesh.path, display, turning, 1.0 / options.files_per_second,
-                               1);
+                               threads_for(display));
 }
 
 /// The animation that is meant, by its name or number, counted from 0; the first one without either.
@@ -93,8 +103,8 @@ Expected<std::unique_ptr<Content>> read_meshes(const StageOptions& options, cons
     }
     const auto animation = choose_animation(scenes.front().scene, options.animation, options.mesh.path);
     if (!animation) return tl::unexpected(animation.error());
-    auto content =
-        MeshContent::make(std::move(scenes), *animation, display, turning, 1.0 / options.files_per_second, 1);
+    auto content = MeshContent::make(std::move(scenes), *animation, display, turning, 1.0 / options.files_per_second,
+                                     threads_for(display));
     if (!content) return tl::unexpected(content.error());
     return std::move(*content);
 }
@@ -143,7 +153,9 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
         stage->color = std::move(*host::parse_color("gradient"));
     }
     auto maker = FrameMaker::make(stage->display, *stage->content, stage->color.get(),
-                                  {.light = light->settings, .resampled = options.sampling == "cartesian"});
+                                  {.light = light->settings,
+                                   .resampled = options.sampling == "cartesian",
+                                   .threads = threads_for(stage->display)});
     if (!maker) return tl::unexpected(maker.error());
     stage->maker = std::move(*maker);
     return stage;
