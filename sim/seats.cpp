@@ -37,24 +37,29 @@ std::uint32_t counted(std::uint32_t index, std::uint32_t count, const Misbuild& 
 }  // namespace
 
 Seats::Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Misbuild& misbuild)
+    : Seats(display, panel, swapped(slice, misbuild) + 0.5, misbuild) {}
+
+Seats::Seats(const DisplayDescription& display, std::uint32_t panel, double at, const Misbuild& misbuild)
     : display_(display),
       panel_(display.panels[panel]),
       misbuild_(misbuild),
       reversed_(misbuild.mirrored_panel == static_cast<std::int32_t>(panel)),
       on_side_(turn_by(panel_.turned / 4.0)),
       tilt_(turn_by(panel_.tilt_deg / 360.0)) {
-    const double late = swapped(slice, misbuild) + static_cast<double>(misbuild.phase_slices);
+    const double late = at + static_cast<double>(misbuild.phase_slices);
     switch (display.kind) {
-        case DisplayKind::StackedPlanes:
-            height_mm_ = plane_height_mm(display, counted(slice, display.slices, misbuild));
+        case DisplayKind::StackedPlanes: {
+            const auto plane = static_cast<std::int64_t>(std::floor(late)) % display.slices;
+            height_mm_ = plane_height_mm(display, static_cast<double>(plane < 0 ? plane + display.slices : plane));
             break;
-        case DisplayKind::SweptPlane: height_mm_ = plane_height_mm(display, late); break;
+        }
+        case DisplayKind::SweptPlane: height_mm_ = plane_height_mm(display, late - 0.5); break;
         case DisplayKind::RotatingPanel: {
-            const double turns = (late + 0.5) / display.slices * (display.sweep_deg / 360.0);
+            const double turns = late / display.slices * (display.sweep_deg / 360.0);
             turned_ = turn_by(display.clockwise ? -turns : turns) * turn_by(panel_.angle_deg / 360.0);
             break;
         }
-        case DisplayKind::Helix: phase_ = (display.clockwise ? late + 0.5 : -late - 0.5) / display.slices; break;
+        case DisplayKind::Helix: phase_ = (display.clockwise ? late : -late) / display.slices; break;
         case DisplayKind::FreePoints: break;
     }
 }

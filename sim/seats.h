@@ -17,6 +17,10 @@ public:
     /// `display` must be valid, and is borrowed, as is `misbuild`.
     Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Misbuild& misbuild);
 
+    /// The same where the display is at `at` of its slices: slice s is lit from s to s + 1, and its samples stand at s
+    /// + ½. Before and after them as Misbuild::phase_slices says. Of a stack: the plane floor(at).
+    Seats(const DisplayDescription& display, std::uint32_t panel, double at, const Misbuild& misbuild);
+
     /// Of pixel `column` on the wire.
     glm::dvec3 place_mm(std::uint32_t row, std::uint32_t column) const;
 

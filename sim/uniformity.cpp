@@ -43,7 +43,7 @@ std::vector<double> pixel_volumes(const DisplayDescription& display, const Sampl
     const Misbuild none;
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         const Panel& panel = display.panels[p];
-        const Seats seats(display, p, 0, none);
+        const Seats seats(display, p, std::uint32_t{0}, none);
         for (std::uint32_t row = 0; row < panel.rows; ++row) {
             for (std::uint32_t column = 0; column < panel.columns; ++column) {
                 const std::size_t x = upright ? first + upright_pixel(panel, column, row).column : all.size();

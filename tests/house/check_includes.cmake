@@ -6,7 +6,7 @@ function(module_of path out)
   set(patterns
     "^voxelizer/status\\.h$" status        "^voxelizer/error\\.h$" error
     "^voxelizer/io/" io                    "^voxelizer/gl/" gl                "^voxelizer/" core
-    "^transport/(link\\.h|framing\\.)" link                                   "^transport/" transport
+    "^transport/(link\\.h|lines\\.h|framing\\.)" link                                   "^transport/" transport
     "^driver/display/description\\.h$" description                            "^driver/display/" display
     "^driver/wire/" wire                   "^driver/device/" device           "^driver/host/" host
     "^sim/" sim                            "^(tools|tests|examples)/" top)
