@@ -33,7 +33,7 @@ void Clockwork::run_until(std::uint64_t now_ns) {
             std::uint64_t next_ns = std::min(order_end_ns_, now_ns_ + kLongestStep_ns);
             if (rotor_) next_ns = std::min(next_ns, rotor_->next_event().time_ns);
             if (next_ns >= now_ns) break;
-            step(std::max(next_ns, now_ns_ + 1));
+            step(order_ == 0 ? now_ns_ : std::max(next_ns, now_ns_ + 1));
         }
     }
     step(std::max(now_ns, now_ns_));

@@ -51,9 +51,8 @@ void TimingWatch::received(std::span<const std::byte> packet, std::uint64_t now_
     // One that was repeated on the way began when it came first.
     if (!read(header, payload, begin) || begin.frame == last_begun_) return;
     last_begun_ = begin.frame;
-    open_.insert_or_assign(begin.frame, FrameTiming{.frame = begin.frame,
-                                                    .asked_ns = begin.present_at_ns,
-                                                    .first_packet_ns = now_ns});
+    open_.insert_or_assign(
+        begin.frame, FrameTiming{.frame = begin.frame, .asked_ns = begin.present_at_ns, .first_packet_ns = now_ns});
     ++timing_.begun;
 }
 
@@ -155,10 +154,10 @@ void TimingWatch::finish(const FrameTiming& frame) {
 
 std::string to_json(const Timing& timing) {
     const Timing::Latency& latency = timing.latency;
-    const std::string latency_ns =
-        latency.frames == 0 ? "null"
-                            : fmt::format(R"({{"least": {}, "mean": {:.6g}, "most": {}}})", latency.least_ns,
-                                          latency.mean_ns, latency.most_ns);
+    const std::string latency_ns = latency.frames == 0
+                                       ? "null"
+                                       : fmt::format(R"({{"least": {}, "mean": {:.6g}, "most": {}}})", latency.least_ns,
+                                                     latency.mean_ns, latency.most_ns);
     return fmt::format(
         R"({{"until_ns": {}, "frames": {{"begun": {}, "accepted": {}, "refused": {}, "presented": {}, "late": {}, )"
         R"("dropped": {}}}, "latency_ns": {}, "cycles": {}, "torn": {}, "lit_ns": {}, "dark_ns": {}, "locked": {}, )"

@@ -62,11 +62,11 @@ struct Timing {
     std::uint64_t cycles = 0;  ///< In which something was lit.
     std::uint64_t torn = 0;    ///< Of them, those in which slices of more than one frame were lit.
 
-    std::uint64_t lit_ns = 0;                    ///< In which a slice was being scanned out.
-    std::array<std::uint64_t, 5> dark_ns{};      ///< By device::Dark; [0] is 0.
-    std::uint64_t locked = 0;                    ///< Times that the device found the rotation,
-    std::uint64_t lost = 0;                      ///< and lost it.
-    std::array<std::uint64_t, 8> faults{};       ///< Times that each wire::Fault rose.
+    std::uint64_t lit_ns = 0;                ///< In which a slice was being scanned out.
+    std::array<std::uint64_t, 5> dark_ns{};  ///< By device::Dark; [0] is 0.
+    std::uint64_t locked = 0;                ///< Times that the device found the rotation,
+    std::uint64_t lost = 0;                  ///< and lost it.
+    std::array<std::uint64_t, 8> faults{};   ///< Times that each wire::Fault rose.
     static_assert(wire::kHighestFault < std::tuple_size_v<decltype(faults)>);
 };
 
