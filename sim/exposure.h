@@ -26,6 +26,7 @@
 #include <glm/vec3.hpp>
 
 #include "driver/display/description.h"
+#include "sim/faults.h"
 #include "sim/optics.h"
 #include "sim/strobe.h"
 
@@ -55,8 +56,9 @@ public:
     /// The shutter is open from `from_ns` to `to_ns`, later. `display` is what the device goes by, and `built` what is
     /// really there (they have the same layout: SimulatorOptions::built); both valid and copied, and what they borrow
     /// must outlive the exposure. `cycles_at` empty: as declared, from time 0 on.
+    /// Of `faults`, which must be possible on `built`, those of pose count (sim/faults.h); strobes have the others.
     Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
-             std::uint64_t from_ns, std::uint64_t to_ns);
+             std::uint64_t from_ns, std::uint64_t to_ns, Faults faults = {});
     Exposure(Exposure&&) noexcept;
     Exposure& operator=(Exposure&&) noexcept;
     ~Exposure();
