@@ -65,8 +65,12 @@ public:
     /// at most a cycle, and the time that a string takes to be sent a frame. Throws std::bad_alloc.
     void add(const Strobe& strobe);
 
+    using VisitRow = std::function<void(const ExposedRow&)>;
+
     /// Calls visit(row) for every row that was lit, by slice, panel and row; of one, by place.
-    void for_each_row(const std::function<void(const ExposedRow&)>& visit) const;
+    void for_each_row(const VisitRow& visit) const;
+    /// The same for one row of the display alone.
+    void for_each_place(std::uint32_t slice, std::uint32_t panel, std::uint32_t row, const VisitRow& visit) const;
 
     /// All of it as flashes, for pictures, statistics and rebuild: of each LED that was lit one for each place, with
     /// its light in LightField::measured, Flash::time the slice that the device meant and no code.
