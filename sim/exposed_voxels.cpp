@@ -55,7 +55,7 @@ public:
     }
 
     void add(const ExposedRow& lit) {
-        const Seats found(exposure_.built(), panel_, lit.at, none_);
+        const Seats found(exposure_.built(), panel_, lit.at, exposure_.faults());
         for (std::uint32_t mounted = 0; mounted < lit.light.size(); ++mounted) {
             const glm::vec3& light = lit.light[mounted];
             if (light == glm::vec3(0.0f)) continue;
@@ -92,7 +92,7 @@ private:
     std::uint32_t panel_;
     std::uint32_t row_ = 0;
     double reach_mm_;
-    Misbuild none_;
+    Faults none_;
     Seats declared_;
     Seats begin_;
     Seats end_;

@@ -74,6 +74,7 @@ struct PanelRows {
 struct Exposure::Impl {
     DisplayDescription display;
     DisplayDescription built;
+    Faults faults;
     CyclesAt cycles_at;
     std::uint64_t from_ns;
     std::uint64_t to_ns;
@@ -268,9 +269,9 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row, const Visit
     }
 }
 
-Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
-                   std::uint64_t from_ns, std::uint64_t to_ns)
-    : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns})) {
+Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, const Faults& faults,
+                   CyclesAt cycles_at, std::uint64_t from_ns, std::uint64_t to_ns)
+    : impl_(std::make_unique<Impl>(Impl{display, built, faults, std::move(cycles_at), from_ns, to_ns})) {
     assert(to_ns > from_ns);
     Impl& impl = *impl_;
     if (display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0) impl.half_turns = 2;
@@ -323,9 +324,8 @@ void Exposure::for_each_place(std::uint32_t slice, std::uint32_t panel, std::uin
 LightField Exposure::light() const {
     LightField field;
     field.pixels = impl_->pixels;
-    const Misbuild none;
     for_each_row([&](const ExposedRow& row) {
-        const Seats seats(impl_->built, row.panel, row.at, none);
+        const Seats seats(impl_->built, row.panel, row.at, impl_->faults);
         for (std::uint32_t column = 0; column < row.light.size(); ++column) {
             if (row.light[column] == glm::vec3(0.0f)) continue;
             field.flashes.push_back({seats.place_mm(row.row, column), 0, row.slice});
@@ -341,6 +341,10 @@ const DisplayDescription& Exposure::display() const {
 
 const DisplayDescription& Exposure::built() const {
     return impl_->built;
+}
+
+const Faults& Exposure::faults() const {
+    return impl_->faults;
 }
 
 std::uint64_t Exposure::from_ns() const {
