@@ -13,6 +13,7 @@
 #include "driver/device/config.h"
 #include "driver/device/scan_control.h"
 #include "driver/display/toml.h"
+#include "sim/lossy_link.h"
 
 namespace xorvox::sim {
 namespace {
@@ -60,7 +61,8 @@ std::int32_t late_slices(const DisplayDescription& display, const DisplayDescrip
 struct Simulator::Impl {
     DisplayDescription display;
     DisplayDescription built;
-    Misbuild misbuild;
+    Faults faults;
+    LossyLink wire;
     std::int32_t late_slices = 0;
     std::vector<std::byte> pages;
     std::vector<std::byte> packet;
@@ -77,12 +79,15 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
     if (const Expected<void> valid = validate_display(display); !valid) return tl::unexpected(valid.error());
     const DisplayDescription& built = options.built ? *options.built : display;
     if (const Expected<void> same = check_built(display, built); !same) return tl::unexpected(same.error());
+    if (const Expected<void> possible = check_faults(built, options.faults); !possible) {
+        return tl::unexpected(possible.error());
+    }
     auto impl = std::make_unique<Impl>();
     impl->display = display;
     impl->built = built;
     impl->built.motion.dead_zone = display.motion.dead_zone;
     impl->built.motion.both_ways = display.motion.both_ways;
-    impl->misbuild = options.misbuild;
+    impl->faults = options.faults;
     impl->late_slices = late_slices(display, built);
     impl->pages.resize(std::size_t{options.pages} * frame_bytes(display));
     impl->packet.resize(options.max_packet_bytes);
@@ -91,7 +96,7 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
     config.display = &impl->display;
     config.serial = DisplayName("simulator");
     config.boot_nonce = options.boot_nonce;
-    config.link = link;
+    config.link = impl->wire.over(link, impl->faults);
     config.pages = impl->pages;
     config.page_count = options.pages;
     config.packet = impl->packet;
@@ -117,7 +122,7 @@ Status Simulator::poll(std::uint64_t now_ns) {
 }
 
 void Simulator::set_link(Link link) {
-    impl_->device.set_link(link);
+    impl_->device.set_link(impl_->wire.over(link, impl_->faults));
 }
 
 std::uint64_t Simulator::next_boundary_ns() const {
@@ -127,9 +132,9 @@ std::uint64_t Simulator::next_boundary_ns() const {
 LightField Simulator::light() const {
     const device::Shown shown = impl_->device.shown();
     const auto expose_late = [&](std::int32_t slices) {
-        Misbuild misbuild = impl_->misbuild;
-        misbuild.phase_slices += slices;
-        return expose(impl_->built, shown.page, shown.brightness, misbuild);
+        Faults faults = impl_->faults;
+        if (slices != 0) faults.list.push_back({.kind = FaultKind::Phase, .amount = static_cast<double>(slices)});
+        return expose(impl_->built, shown.page, shown.brightness, faults);
     };
     LightField field = expose_late(impl_->late_slices);
     if (impl_->late_slices != 0 && impl_->display.motion.both_ways) {
@@ -150,6 +155,10 @@ const DisplayDescription& Simulator::display() const {
 
 const DisplayDescription& Simulator::built() const {
     return impl_->built;
+}
+
+const Faults& Simulator::faults() const {
+    return impl_->faults;
 }
 
 }  // namespace xorvox::sim

@@ -21,7 +21,7 @@ struct SimulatorOptions {
     std::uint32_t pages = 3;
     std::uint32_t max_packet_bytes = 65536;
     std::uint32_t boot_nonce = 1;  ///< The same in every run, for tests; give a random one where hosts may come again.
-    Misbuild misbuild;             ///< Ways in which this display differs from its description; none.
+    Faults faults;                 ///< What is wrong with this display, beside `built`; nothing.
     /// The display as it is really built, where that is not as its description says: the device goes by `display`, and
     /// the light is where the pixels of this one are, turned or raised by as many whole slices as its index mark comes
     /// at another phase. Its frames must have the same layout: kind, format, slices, and columns and rows of each
@@ -35,7 +35,8 @@ class Simulator {
 public:
     /// A display that is switched on at time 0 with `link` at its plug (empty: see set_link). `display` is copied; what
     /// it borrows must outlive the simulator. Fails for a display that validate_display() refuses, with its words, for
-    /// an `options.built` whose frames have another layout, and for sizes that no device has. Throws std::bad_alloc.
+    /// an `options.built` whose frames have another layout, for faults that it cannot have, and for sizes that no
+    /// device has. Throws std::bad_alloc.
     static Expected<Simulator> make(const DisplayDescription& display, Link link, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
     Simulator& operator=(Simulator&&) noexcept;
@@ -57,8 +58,9 @@ public:
     const device::Device& device() const;
     /// What the device goes by.
     const DisplayDescription& display() const;
-    /// Where the light is: display(), or what it is really built like.
+    /// Where the light is: display(), or what it is really built like; without its faults.
     const DisplayDescription& built() const;
+    const Faults& faults() const;
 
 private:
     struct Impl;
