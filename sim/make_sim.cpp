@@ -232,6 +232,14 @@ MakeSim& MakeSim::seed(std::uint64_t seed) {
     seed_ = seed;
     return *this;
 }
+MakeSim& MakeSim::fault(const Fault& fault) {
+    options_.faults.list.push_back(fault);
+    return *this;
+}
+MakeSim& MakeSim::fidelity(Fidelity fidelity) {
+    options_.fidelity = fidelity;
+    return *this;
+}
 MakeSim& MakeSim::built_like(const DisplayDescription& built) {
     options_.built = built;
     return *this;
@@ -278,6 +286,7 @@ Expected<SimRig> MakeSim::build() const {
     SimulatorOptions options = options_;
     options.rotor = rotor_;
     if (options.rotor) options.rotor->seed = seed_;
+    options.faults.seed = seed_;
     options.keeps_time = true;
     auto impl = std::make_unique<SimRig::Impl>();
     impl->ends = transport::make_loopback();

@@ -120,8 +120,12 @@ public:
     MakeSim& doubled(double probability);
     MakeSim& noise(double part_of_turn);
     MakeSim& stall_at(double seconds);
+    /// Of all that is left to chance; 1.
     MakeSim& seed(std::uint64_t seed);
 
+    /// One more thing that is wrong with it.
+    MakeSim& fault(const Fault& fault);
+    MakeSim& fidelity(Fidelity fidelity);
     /// How it is really built: SimulatorOptions::built.
     MakeSim& built_like(const DisplayDescription& built);
 

@@ -15,7 +15,9 @@
 #include "driver/display/toml.h"
 #include "sim/clockwork.h"
 #include "sim/link_tap.h"
+#include "sim/lossy_link.h"
 #include "sim/scan_out.h"
+#include "sim/wiring.h"
 
 namespace xorvox::sim {
 namespace {
@@ -68,7 +70,8 @@ std::int32_t late_slices(const DisplayDescription& display, const DisplayDescrip
 struct Simulator::Impl {
     DisplayDescription display;
     DisplayDescription built;
-    Misbuild misbuild;
+    Faults faults;
+    LossyLink wire;
     std::int32_t late_slices = 0;
     std::vector<std::byte> pages;
     std::vector<std::byte> packet;
@@ -78,9 +81,27 @@ struct Simulator::Impl {
     LinkTap tap{timing};
     bool keeps_time = false;
     std::optional<Clockwork> clockwork;
+    Fidelity fidelity = Fidelity::Strobes;
+    StrobeSink strobe_sink;
+    PinSink pin_sink;
 
     /// What the device is given of `link`.
-    Link plugged(Link link) { return keeps_time ? tap.over(link) : link; }
+    Link plugged(Link link) {
+        const Link what_arrives = wire.over(link, faults);
+        return keeps_time ? tap.over(what_arrives) : what_arrives;
+    }
+
+    void scan_anew() {
+        const bool edges = fidelity == Fidelity::Edges;
+        std::unique_ptr<ScanOut> scan;
+        if (strobe_sink || (edges && pin_sink)) {
+            StrobeSink sink = with_wiring_faults(
+                display, faults, strobe_sink ? strobe_sink : [](const Strobe&) {});
+            scan = edges ? make_edge_scan(display, std::move(sink), pin_sink).value()
+                         : make_strobe_scan(display, std::move(sink));
+        }
+        clockwork->set_scan(std::move(scan));
+    }
 };
 
 Simulator::Simulator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -92,14 +113,23 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
     if (const Expected<void> valid = validate_display(display); !valid) return tl::unexpected(valid.error());
     const DisplayDescription& built = options.built ? *options.built : display;
     if (const Expected<void> same = check_built(display, built); !same) return tl::unexpected(same.error());
+    if (const Expected<void> possible = check_faults(built, options.faults); !possible) {
+        return tl::unexpected(possible.error());
+    }
+    if (options.fidelity == Fidelity::Edges) {
+        if (const auto scan = make_edge_scan(display, [](const Strobe&) {}, {}); !scan) {
+            return tl::unexpected(scan.error());
+        }
+    }
     auto impl = std::make_unique<Impl>();
     impl->display = display;
     impl->built = built;
     impl->built.motion.dead_zone = display.motion.dead_zone;
     impl->built.motion.both_ways = display.motion.both_ways;
-    impl->misbuild = options.misbuild;
+    impl->faults = options.faults;
     impl->late_slices = late_slices(display, built);
     impl->keeps_time = options.keeps_time;
+    impl->fidelity = options.fidelity;
     impl->pages.resize(std::size_t{options.pages} * frame_bytes(display));
     impl->packet.resize(options.max_packet_bytes);
 
@@ -139,7 +169,13 @@ Status Simulator::poll(std::uint64_t now_ns) {
 }
 
 void Simulator::watch(StrobeSink sink) {
-    impl_->clockwork->set_scan(sink ? make_strobe_scan(impl_->display, std::move(sink)) : nullptr);
+    impl_->strobe_sink = std::move(sink);
+    impl_->scan_anew();
+}
+
+void Simulator::watch_pins(PinSink sink) {
+    impl_->pin_sink = std::move(sink);
+    impl_->scan_anew();
 }
 
 double Simulator::cycles_at(std::uint64_t time_ns) const {
@@ -161,9 +197,9 @@ std::uint64_t Simulator::next_boundary_ns() const {
 LightField Simulator::light() const {
     const device::Shown shown = impl_->device.shown();
     const auto expose_late = [&](std::int32_t slices) {
-        Misbuild misbuild = impl_->misbuild;
-        misbuild.phase_slices += slices;
-        return expose(impl_->built, shown.page, shown.brightness, misbuild);
+        Faults faults = impl_->faults;
+        if (slices != 0) faults.list.push_back({.kind = FaultKind::Phase, .amount = static_cast<double>(slices)});
+        return expose(impl_->built, shown.page, shown.brightness, faults);
     };
     LightField field = expose_late(impl_->late_slices);
     if (impl_->late_slices != 0 && impl_->display.motion.both_ways) {
@@ -184,6 +220,10 @@ const DisplayDescription& Simulator::display() const {
 
 const DisplayDescription& Simulator::built() const {
     return impl_->built;
+}
+
+const Faults& Simulator::faults() const {
+    return impl_->faults;
 }
 
 }  // namespace xorvox::sim

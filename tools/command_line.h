@@ -62,6 +62,9 @@ void add_light(CLI::App& app, LightOptions& light);
 void add_volume(CLI::App& app, VolumeOptions& volume);
 void add_transfer(CLI::App& app, VolumeOptions& volume);
 
+/// How a simulated display behaves: --fault and --sim.
+void add_simulation(CLI::App& app, SimulationOptions& options);
+
 /// "64" into a number of things, at most `most`. A CLI::ValidationError says what is wrong; so below.
 std::uint32_t parse_count(const std::string& option, const std::string& text, std::uint32_t most);
 /// "1.5" into a number above zero.

@@ -79,6 +79,12 @@ struct PictureSize {
     std::uint32_t height = 0;
 };
 
+/// How a simulated display behaves; of those that are in this program, and of `sim`.
+struct SimulationOptions {
+    std::vector<std::string> faults;  ///< As sim::parse_fault() takes them.
+    std::string file;                 ///< Of sim::Conditions; empty: none.
+};
+
 /// Where light goes, and what is told of it; shared by show, pattern and share.
 struct DeliveryOptions {
     std::string to = "loopback";
@@ -87,6 +93,7 @@ struct DeliveryOptions {
     std::string frame;  ///< What --png shows: "object", what is lit, or "display", all of it; empty: "object".
     std::string built;  ///< A preset or display file: the simulated display as it is really built; empty: no other.
     std::optional<PictureSize> size;
+    SimulationOptions simulation;
     bool hold = false;  ///< Stay until a signal.
     bool json = false;
 };
@@ -162,6 +169,7 @@ struct ValidateOptions {
 struct SimOptions {
     std::string display = "cube16-ws2812";
     std::string listen;
+    SimulationOptions simulation;
     bool json = false;
 };
 

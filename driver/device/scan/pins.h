@@ -10,35 +10,32 @@
 // moves on by a stage with each rise of the clock; so the first bit out stands farthest away. All chains have the same
 // clock: one that is shorter than the longest gets zeros first, which leave it at its far end.
 //
-//   HUB75         A panel of C columns and R rows in G groups has six registers: of r1 g1 b1 for the rows r = g + j·G
-//   of
-//                 its upper half, j = 0 … n − 1, n = R/2/G, while the address is g; of r2 g2 b2 for those R/2 below.
-//                 Out goes row j = 0 first, its column 0 first. With n = 1, two panels in a chain:
+// HUB75. A panel of C columns and R rows in G groups has six registers: r1 g1 b1 hold the rows g + j·G of its upper
+// half, j = 0 … n − 1 with n = R/2/G, where g is the address; r2 g2 b2 those R/2 below. Row j = 0 goes out first, of a
+// row column 0. With n = 1, two panels in a chain:
 //
-//                      controller ──► panel at position 0        ──► panel at position 1
-//                      stage          0     1     …   C − 1           C     C + 1  …  2C − 1
-//                      column         C − 1 C − 2 …   0               C − 1 C − 2  …  0
-//                      goes out       last                                            first
+//      controller ──► panel at position 0          ──► panel at position 1
+//      stage          0      1      …  C − 1           C      C + 1  …  2·C − 1
+//      column         C − 1  C − 2  …  0               C − 1  C − 2  …  0
+//      goes out       last                                              first
 //
-//                 In general (j, column c) of a panel stands at stage  before + (n − 1 − j)·C + C − 1 − c, where
-//                 `before` is the length of the panels nearer to the controller. Line r1 carries the channel that
-//                 Scan::color_order names first, g1 the second, b1 the third; of mono formats r1 carries the level, and
-//                 g1 and b1 are not used. Scan::msb_first means nothing here.
+// In general column c of row j stands at stage before + (n − 1 − j)·C + C − 1 − c, where `before` is the length of the
+// panels nearer to the controller. Line r1 carries the channel that Scan::color_order names first, g1 the second, b1
+// the third; of mono formats r1 carries the level, and g1 and b1 are not used. Scan::msb_first means nothing here.
 //
-//   74HC595       A chain for a layer of N bits (pixel i = row·columns + column; with three channels its bits are 3·i,
-//                 3·i + 1, 3·i + 2, in the order of Scan::color_order) and L layers. High lights a column, high selects
-//                 a layer. Scan::layers_first says which of the two go out first, Scan::msb_first in which order each:
-//                 from its last bit to bit 0, or from bit 0 to its last. Stage s is output Q(s mod 8), QA … QH, of
-//                 register s / 8, register 0 next to the controller:
+// 74HC595. A chain for a layer of N bits and for L layers. Pixel i = row·columns + column is bit i; with three channels
+// it is bits 3·i, 3·i + 1 and 3·i + 2, in the order of Scan::color_order. High lights a column, high selects a layer.
+// Scan::layers_first says which of the two go out first, Scan::msb_first in which order each of them does: from its
+// last bit to bit 0, or from bit 0 to its last. Stage s is output Q(s mod 8), QA … QH, of register s / 8, and register
+// 0 is next to the controller:
 //
-//                      pixels first, msb first     stage   0 … L − 1   layer 0 … L − 1     L … L + N − 1  bit 0 … N − 1
-//                      pixels first, lsb first             0 … L − 1   layer L − 1 … 0     L … L + N − 1  bit N − 1 … 0
-//                      layers first, msb first             0 … N − 1   bit 0 … N − 1       N … N + L − 1  layer 0 … L −
-//                      1 layers first, lsb first             0 … N − 1   bit N − 1 … 0       N … N + L − 1  layer L − 1
-//                      … 0
+//      pixels first, msb first    stages 0 … L − 1: layers 0 … L − 1    L … L + N − 1: bits 0 … N − 1
+//      pixels first, lsb first    stages 0 … L − 1: layers L − 1 … 0    L … L + N − 1: bits N − 1 … 0
+//      layers first, msb first    stages 0 … N − 1: bits 0 … N − 1      N … N + L − 1: layers 0 … L − 1
+//      layers first, lsb first    stages 0 … N − 1: bits N − 1 … 0      N … N + L − 1: layers L − 1 … 0
 //
-//                 A cube of 8 × 8 × 8, pixels first and msb first: QA … QH of the first register select layers 0 … 7,
-//                 those of the second one are columns 0 … 7 of row 0, of the ninth those of row 7.
+// A cube of 8 × 8 × 8, pixels first and msb first: QA … QH of the first register select layers 0 … 7, those of the
+// second one are columns 0 … 7 of row 0, those of the ninth one columns of row 7.
 //
 // Freestanding.
 #pragma once
@@ -81,9 +78,9 @@ struct ShiftRegisterPins {
 
 /// LEDs between lines of rows and lines of columns; what drives their currents stands between.
 struct MatrixPins {
-    /// High: the row group's LEDs light up where their columns are high. Row groups first, then columns: panel by
-    /// panel, of a panel the rows of a group from the top, of a row its LEDs by column, of an LED its channels in the
-    /// order of Scan::color_order.
+    /// Row groups first (high: its LEDs light up where their columns are high), then columns (high: lit): panel by
+    /// panel, of a panel the rows of a group as they are numbered, of a row its LEDs by column, of an LED its channels
+    /// in the order of Scan::color_order.
     std::array<std::uint8_t, kMaxLines> lines = [] {
         std::array<std::uint8_t, kMaxLines> all{};
         for (std::size_t i = 0; i < kMaxLines; ++i) all[i] = static_cast<std::uint8_t>(i);
