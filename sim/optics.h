@@ -27,9 +27,13 @@ struct LightField {
     PixelLight pixels;              ///< What the codes mean.
     std::uint8_t brightness = 255;  ///< By which all light is dimmed, of 255.
     std::vector<Flash> flashes;
+    /// Of each flash, in their order, the light that was really given (sim/exposure.h), which then counts instead of
+    /// its code; or empty.
+    std::vector<glm::vec3> measured;
 
-    /// Linear, 0 … 1 per channel, brightness applied.
+    /// Of one of `flashes`. Linear, 0 … 1 per channel, brightness applied; measured light can be more.
     glm::vec3 light(const Flash& flash) const {
+        if (!measured.empty()) return measured[static_cast<std::size_t>(&flash - flashes.data())];
         return pixels.of(flash.code) * (static_cast<float>(brightness) / 255.0f);
     }
 };
