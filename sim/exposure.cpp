@@ -77,6 +77,7 @@ struct Exposure::Impl {
     CyclesAt cycles_at;
     std::uint64_t from_ns;
     std::uint64_t to_ns;
+    Faults faults;
     PixelLight pixels{display};
     bool of_levels = !lit_by_planes(display);
     std::uint32_t channels = channel_count(display.format);
@@ -272,8 +273,8 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row,
 }
 
 Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
-                   std::uint64_t from_ns, std::uint64_t to_ns)
-    : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns})) {
+                   std::uint64_t from_ns, std::uint64_t to_ns, const Faults& faults)
+    : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns, faults})) {
     assert(to_ns > from_ns);
     Impl& impl = *impl_;
     if (display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0) impl.half_turns = 2;
@@ -324,9 +325,9 @@ void Exposure::for_each_row(const std::function<void(const ExposedRow&)>& visit)
 LightField Exposure::light() const {
     LightField field;
     field.pixels = impl_->pixels;
-    const Misbuild none;
     for_each_row([&](const ExposedRow& row) {
-        const Seats seats(impl_->built, row.panel, row.at, none);
+        const double swapped = double{1} * lit_slice(row.slice, impl_->faults) - row.slice;
+        const Seats seats(impl_->built, row.panel, row.at + swapped, impl_->faults);
         for (std::uint32_t column = 0; column < row.light.size(); ++column) {
             if (row.light[column] == glm::vec3(0.0f)) continue;
             field.flashes.push_back({seats.place_mm(row.row, column), 0, row.slice});

@@ -54,9 +54,10 @@ public:
 
     /// The shutter is open from `from_ns` to `to_ns`, later. `display` is what the device goes by, and `built` what is
     /// really there (they have the same layout: SimulatorOptions::built); both valid and copied, and what they borrow
-    /// must outlive the exposure. `cycles_at` empty: as declared, from time 0 on.
+    /// must outlive the exposure. `cycles_at` empty: as declared, from time 0 on. Of `faults` those of the pose move
+    /// light(); those of the wiring are in the strobes (with_wiring_faults).
     Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
-             std::uint64_t from_ns, std::uint64_t to_ns);
+             std::uint64_t from_ns, std::uint64_t to_ns, const Faults& faults = {});
     Exposure(Exposure&&) noexcept;
     Exposure& operator=(Exposure&&) noexcept;
     ~Exposure();

@@ -203,7 +203,7 @@ TEST_CASE("light is where the display is in the middle of the strobe") {
     };
     const sim::LightField field = exposed(display, page, 1, cycles_at).light();
     REQUIRE(field.flashes.size() == 1);
-    const sim::Misbuild none;
+    const sim::Faults none;
     const sim::Seats seats(display, 1, 2.5 + ahead, none);
     CHECK(glm::distance(field.flashes[0].place_mm, seats.place_mm(1, 3)) < 1e-6);
     CHECK(field.flashes[0].time == 2);
