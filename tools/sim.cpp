@@ -1,18 +1,22 @@
 // sim: a display in a program of its own, for clients over tcp. One at a time; the picture outlives its client.
 #include <cstdio>
+#include <optional>
 #include <random>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "driver/display/toml.h"
 #include "driver/host/faults.h"
 #include "sim/optics.h"
+#include "sim/recording/record_link.h"
 #include "sim/simulator.h"
 #include "sim/statistics.h"
 #include "tools/clock.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/placement.h"
+#include "tools/simulation.h"
 #include "tools/stop.h"
 #include "transport/address.h"
 #include "transport/tcp.h"
@@ -60,7 +64,7 @@ public:
             fmt::print("dark: {}\n", why_dark(status));
         } else {
             fmt::print("frame {}: {} pixels lit\n", status.shown_frame,
-                       thousands(sim::count_lit(display_, shown.page)));
+                       thousands(sim::count_lit(display_, shown.page, simulator.faults())));
         }
         std::fflush(stdout);
     }
@@ -88,7 +92,10 @@ Expected<void> sim(const SimOptions& options) {
     if (!display) return tl::unexpected(display.error());
     if (const auto fits = check_display_fits(*display); !fits) return fits;
     // As a device draws one at each start: hosts that come again see that this is another run.
-    const sim::SimulatorOptions simulated{.boot_nonce = std::random_device{}()};
+    sim::SimulatorOptions simulated{.boot_nonce = std::random_device{}()};
+    Expected<sim::Conditions> conditions = read_conditions(options.simulation);
+    if (!conditions) return tl::unexpected(conditions.error());
+    simulated.faults = std::move(conditions->faults);
     Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{}, simulated);
     if (!simulator) return tl::unexpected(simulator.error());
     Expected<transport::TcpListener> listener = transport::TcpListener::listen(address->port, address->host);
@@ -100,12 +107,21 @@ Expected<void> sim(const SimOptions& options) {
     actual.port = listener->port();
     events.listening(transport::to_string(actual));
 
+    std::optional<sim::RecordingWriter> recording;
+    if (!options.record.empty()) {
+        Expected<sim::RecordingWriter> writer = sim::RecordingWriter::create(options.record, *display);
+        if (!writer) return tl::unexpected(writer.error());
+        recording = std::move(*writer);
+    }
     UniqueLink client;
     std::uint64_t heard_ns = 0;
     while (!asked_to_stop()) {
         const std::uint64_t now_ns = clock_ns();
         if (!client && listener->accept(client) == Status::Ok) {
             events.client(true);
+            if (recording) {
+                client = sim::record_link(std::move(client), sim::LinkEnd::Device, *recording, clock_ns);
+            }
             simulator->set_link(client.get());
             heard_ns = now_ns;
         }
@@ -127,7 +143,9 @@ Expected<void> sim(const SimOptions& options) {
             (void)listener->wait(idle_ns);
         }
     }
-    return {};
+    simulator->set_link(Link{});
+    client.reset();
+    return recording ? recording->commit() : Expected<void>();
 }
 
 }  // namespace xorvox::tools

@@ -123,10 +123,10 @@ TEST_CASE("brightness and blanking by the host change the light") {
     CHECK(bench.simulator.light().flashes.empty());
 }
 
-TEST_CASE("a misbuilt simulator shows the same frame elsewhere") {
+TEST_CASE("a simulator with a fault shows the same frame elsewhere") {
     Bench bench;
     sim::SimulatorOptions options;
-    options.misbuild.mirrored_panel = 0;
+    options.faults.list = {{.kind = sim::FaultKind::Mirrored}};
     auto mirrored = sim::Simulator::make(bench.display, bench.ends.second.get(), options);
     REQUIRE(mirrored.has_value());
     bench.send(wire::HelloRequest{});
