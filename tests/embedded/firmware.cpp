@@ -160,6 +160,7 @@ int run_firmware() {
     if (!shows_frame_2()) return fail("the picture differs\n");
     if (const char* wrong = scan_out(display_device, scan_control, now_ns)) return fail(wrong);
     if (const char* wrong = turn(now_ns)) return fail(wrong);
-    semihosting::print("the golden conversation went to the letter, the layers to their pins, and the slices to their places\n");
+    semihosting::print(
+        "the golden conversation went to the letter, the layers to their pins, and the slices to their places\n");
     return 0;
 }
