@@ -83,6 +83,14 @@ TEST_CASE("packets that are lost are sent again, and where all are the command s
     refused({"pattern", display, "all", "--fault", "lost-packets:part=1"}, "no answer from a display");
 }
 
+TEST_CASE("a rotor from a file turns the display: one that stands is told, one that trembles shows the picture") {
+    const Folder folder;
+    const std::string stalled = folder.file("stalled.toml", "[rotor]\nstall_s = 0\n");
+    const std::string trembling = folder.file("trembling.toml", "seed = 3\n[rotor]\njitter = 0.02\n");
+    refused({"pattern", "vortex", "index", "--sim", stalled}, "does it turn?");
+    CHECK(lit({"pattern", "vortex", "index", "--json", "--sim", trembling}) > 1000);
+}
+
 TEST_CASE("faults that are none, cannot be, or have no display here are refused") {
     const Folder folder;
     const std::string display = folder.file("rotor.toml", kSmallRotor);
