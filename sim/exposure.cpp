@@ -74,6 +74,7 @@ struct PanelRows {
 struct Exposure::Impl {
     DisplayDescription display;
     DisplayDescription built;
+    Faults faults;
     CyclesAt cycles_at;
     std::uint64_t from_ns;
     std::uint64_t to_ns;
@@ -94,8 +95,7 @@ struct Exposure::Impl {
     void fold(Row& row, const PanelRows& panel) const;
     template <class Give>
     void for_each_lit_piece(const std::byte* bits, const PanelRows& panel, bool mirrored, const Give& give) const;
-    void visit_row(const ExposedRow& as, const Row& row, const std::function<void(const ExposedRow&)>& visit,
-                   std::vector<glm::vec3>& light) const;
+    void visit_row(const ExposedRow& as, const Row& row, const VisitRow& visit) const;
 };
 
 /// Calls give(column, channel, part) for what a pattern lights: columns as mounted.
@@ -222,10 +222,9 @@ void Exposure::Impl::fold(Row& row, const PanelRows& panel) const {
     row.bits.clear();
 }
 
-void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row,
-                               const std::function<void(const ExposedRow&)>& visit,
-                               std::vector<glm::vec3>& light) const {
+void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row, const VisitRow& visit) const {
     const PanelRows& panel = panels[as.panel];
+    std::vector<glm::vec3> light(panel.columns, glm::vec3(0.0f));
     const auto give = [&](double late) {
         ExposedRow told = as;
         told.at += late;
@@ -237,7 +236,6 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row,
         visit(told);
         std::ranges::fill(light, glm::vec3(0.0f));
     };
-    light.assign(panel.columns, glm::vec3(0.0f));
 
     std::vector<std::size_t> by_place(row.patterns.size());
     for (std::size_t i = 0; i < by_place.size(); ++i) by_place[i] = i;
@@ -271,9 +269,9 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row,
     }
 }
 
-Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
-                   std::uint64_t from_ns, std::uint64_t to_ns)
-    : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns})) {
+Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, const Faults& faults,
+                   CyclesAt cycles_at, std::uint64_t from_ns, std::uint64_t to_ns)
+    : impl_(std::make_unique<Impl>(Impl{display, built, faults, std::move(cycles_at), from_ns, to_ns})) {
     assert(to_ns > from_ns);
     Impl& impl = *impl_;
     if (display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0) impl.half_turns = 2;
@@ -298,35 +296,36 @@ void Exposure::add(const Strobe& strobe) {
     impl_->add(strobe);
 }
 
-void Exposure::for_each_row(const std::function<void(const ExposedRow&)>& visit) const {
-    std::vector<glm::vec3> light;
+void Exposure::for_each_row(const VisitRow& visit) const {
     for (std::uint32_t slice = 0; slice < impl_->display.slices; ++slice) {
-        for (std::uint32_t p = 0; p < impl_->panels.size(); ++p) {
-            const PanelRows& panel = impl_->panels[p];
-            for (std::uint32_t r = 0; r < panel.rows; ++r) {
-                for (std::uint32_t half = 0; half < impl_->half_turns; ++half) {
-                    const std::size_t step = half * impl_->display.slices + slice;
-                    const Row& row = impl_->rows[step * impl_->slice_rows + panel.first_row + r];
-                    if (row.patterns.empty() && row.sums.empty()) continue;
-                    const ExposedRow as{.slice = slice,
-                                        .panel = p,
-                                        .row = r,
-                                        .mirrored = half == 1,
-                                        .at = static_cast<double>(step) + 0.5,
-                                        .light = {}};
-                    impl_->visit_row(as, row, visit, light);
-                }
-            }
+        for (std::uint32_t panel = 0; panel < impl_->panels.size(); ++panel) {
+            for (std::uint32_t row = 0; row < impl_->panels[panel].rows; ++row)
+                for_each_place(slice, panel, row, visit);
         }
+    }
+}
+
+void Exposure::for_each_place(std::uint32_t slice, std::uint32_t panel, std::uint32_t row,
+                              const VisitRow& visit) const {
+    for (std::uint32_t half = 0; half < impl_->half_turns; ++half) {
+        const std::size_t step = std::size_t{half} * impl_->display.slices + slice;
+        const Row& found = impl_->rows[step * impl_->slice_rows + impl_->panels[panel].first_row + row];
+        if (found.patterns.empty() && found.sums.empty()) continue;
+        const ExposedRow as{.slice = slice,
+                            .panel = panel,
+                            .row = row,
+                            .mirrored = half == 1,
+                            .at = static_cast<double>(step) + 0.5,
+                            .light = {}};
+        impl_->visit_row(as, found, visit);
     }
 }
 
 LightField Exposure::light() const {
     LightField field;
     field.pixels = impl_->pixels;
-    const Faults none;
     for_each_row([&](const ExposedRow& row) {
-        const Seats seats(impl_->built, row.panel, row.at, none);
+        const Seats seats(impl_->built, row.panel, row.at, impl_->faults);
         for (std::uint32_t column = 0; column < row.light.size(); ++column) {
             if (row.light[column] == glm::vec3(0.0f)) continue;
             field.flashes.push_back({seats.place_mm(row.row, column), 0, row.slice});
@@ -342,6 +341,10 @@ const DisplayDescription& Exposure::display() const {
 
 const DisplayDescription& Exposure::built() const {
     return impl_->built;
+}
+
+const Faults& Exposure::faults() const {
+    return impl_->faults;
 }
 
 std::uint64_t Exposure::from_ns() const {

@@ -1,7 +1,7 @@
 // Exposure: what a shutter that is open for a while sees of a display: the light of all strobes in that time, each
 // where the display really was in the middle of the strobe.
 //
-//   Exposure exposure(display, display, [&](std::uint64_t time_ns) { return rotor.cycles_at(time_ns); }, from, to);
+//   Exposure exposure(display, display, {}, [&](std::uint64_t time_ns) { return rotor.cycles_at(time_ns); }, from, to);
 //   scan = make_strobe_scan(display, [&](const Strobe& strobe) { exposure.add(strobe); });
 //   …
 //   render_perspective(display, exposure.light());
@@ -26,6 +26,7 @@
 #include <glm/vec3.hpp>
 
 #include "driver/display/description.h"
+#include "sim/faults.h"
 #include "sim/optics.h"
 #include "sim/strobe.h"
 
@@ -54,9 +55,10 @@ public:
 
     /// The shutter is open from `from_ns` to `to_ns`, later. `display` is what the device goes by, and `built` what is
     /// really there (they have the same layout: SimulatorOptions::built); both valid and copied, and what they borrow
-    /// must outlive the exposure. `cycles_at` empty: as declared, from time 0 on.
-    Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
-             std::uint64_t from_ns, std::uint64_t to_ns);
+    /// must outlive the exposure. Of `faults`, possible on `built`, those of its pose count (sim/faults.h); those of
+    /// its wiring are in the strobes. `cycles_at` empty: as declared, from time 0 on.
+    Exposure(const DisplayDescription& display, const DisplayDescription& built, const Faults& faults,
+             CyclesAt cycles_at, std::uint64_t from_ns, std::uint64_t to_ns);
     Exposure(Exposure&&) noexcept;
     Exposure& operator=(Exposure&&) noexcept;
     ~Exposure();
@@ -65,8 +67,12 @@ public:
     /// at most a cycle, and the time that a string takes to be sent a frame. Throws std::bad_alloc.
     void add(const Strobe& strobe);
 
+    using VisitRow = std::function<void(const ExposedRow&)>;
+
     /// Calls visit(row) for every row that was lit, by slice, panel and row; of one, by place.
-    void for_each_row(const std::function<void(const ExposedRow&)>& visit) const;
+    void for_each_row(const VisitRow& visit) const;
+    /// The same for one row of the display alone.
+    void for_each_place(std::uint32_t slice, std::uint32_t panel, std::uint32_t row, const VisitRow& visit) const;
 
     /// All of it as flashes, for pictures, statistics and rebuild: of each LED that was lit one for each place, with
     /// its light in LightField::measured, Flash::time the slice that the device meant and no code.
@@ -74,6 +80,7 @@ public:
 
     const DisplayDescription& display() const;
     const DisplayDescription& built() const;
+    const Faults& faults() const;
     std::uint64_t from_ns() const;
     std::uint64_t to_ns() const;
 
