@@ -78,6 +78,7 @@ struct Exposure::Impl {
     CyclesAt cycles_at;
     std::uint64_t from_ns;
     std::uint64_t to_ns;
+    Faults faults;
     PixelLight pixels{display};
     bool of_levels = !lit_by_planes(display);
     std::uint32_t channels = channel_count(display.format);
@@ -325,7 +326,8 @@ LightField Exposure::light() const {
     LightField field;
     field.pixels = impl_->pixels;
     for_each_row([&](const ExposedRow& row) {
-        const Seats seats(impl_->built, row.panel, row.at, impl_->faults);
+        const double swapped = double{1} * lit_slice(row.slice, impl_->faults) - row.slice;
+        const Seats seats(impl_->built, row.panel, row.at + swapped, impl_->faults);
         for (std::uint32_t column = 0; column < row.light.size(); ++column) {
             if (row.light[column] == glm::vec3(0.0f)) continue;
             field.flashes.push_back({seats.place_mm(row.row, column), 0, row.slice});
