@@ -126,6 +126,19 @@ TEST_CASE("a frame that misses a boundary is late, by what was asked or since it
     CHECK(is_late(35, 20));  // It came too late for its time.
 }
 
+TEST_CASE("a frame that waits until the rotation is found is not late") {
+    Told told;
+    told.begins(1, 1);
+    told.accepted(1, 1);
+    told.is_dark(Dark::NotLocked, 2);
+    told.state.cycle = 5;
+    told.is_dark(Dark::NoPicture, 55);
+    told.shows(1);
+    told.lights(60);
+    CHECK(told.timing().presented == 1);
+    CHECK(told.timing().late == 0);
+}
+
 TEST_CASE("a frame that a later one overtakes was dropped, one that is not due was not") {
     Told told;
     for (const std::uint32_t frame : {1u, 2u, 3u}) {
