@@ -26,7 +26,7 @@ Status Hub75Wires::shift(const SlicePlanes& planes, std::uint32_t group, std::ui
             for (std::uint32_t r = group; r < half; r += groups) {
                 const PlaneRow row = planes.row(p, lower * half + r, channel, plane);
                 for (std::uint32_t c = 0; c < columns; ++c, out += 2) {
-                    if (row[c]) *out |= lit;
+                    *out |= -LineMask{row[c]} & lit;  // No branch: bits of pictures cannot be foreseen.
                 }
             }
         }
