@@ -5,7 +5,7 @@
 //   OE        ────────────────────┐                   ┌────   low: lit
 //                                 └───────────────────┘
 //   A … E     ════════╳═════════════════════════════════   the row group
-//   latch     ________┌┐________________________________   what was shifted in, to the LEDs
+//   latch     ________┌────┐____________________________   what was shifted in, to the LEDs
 //   data      ────────────────────╳══╳══╳═ … ═╳══╳─────   the next slot's bits, each with the clock low
 //   clock     ────────────────────┐ ┌┐ ┌┐ … ┐ ┌────────   and the same with it high: one write of 2 · M
 //                                 └─┘└─┘└ …  └─┘           elements

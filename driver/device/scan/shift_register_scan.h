@@ -4,7 +4,7 @@
 //             ◄ fall ►◄ latch_ns ►◄─────── on ───────►
 //   OE        ────────────────────┐                   ┌────   low: lit
 //                                 └───────────────────┘
-//   RCLK      ________┌┐________________________________   what was shifted in, to the LEDs
+//   RCLK      ________┌────┐____________________________   what was shifted in, to the LEDs
 //   SER       ────────────────────╳══╳══╳═ … ═╳══╳─────   the next slot's bits, each with the clock low
 //   SRCLK     ────────────────────┐ ┌┐ ┌┐ … ┐ ┌────────   and the same with it high: one write of 2 · M
 //                                 └─┘└─┘└ …  └─┘           elements
