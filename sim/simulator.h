@@ -3,6 +3,11 @@
 // volume.
 //
 //   link ─► device::Device ─► page ─► panel (pixels) ─► optics (flashes: place, colour, time) ─► picture, statistics
+//
+// That is one whole cycle of light, as it should be. What really happens in time follows from watch(): a rotor with
+// conditions of its own (sim/rotor.h) gives index pulses, the device follows them, and what it orders becomes strobes.
+//
+//   rotor ─► device::ScanControl ─► orders ─► ScanOut ─► strobes ─► sinks, at cycles_at(time)
 #pragma once
 
 #include <cstdint>
@@ -12,6 +17,9 @@
 #include "driver/device/device.h"
 #include "driver/display/description.h"
 #include "sim/optics.h"
+#include "sim/rotor.h"
+#include "sim/strobe.h"
+#include "sim/timing.h"
 #include "transport/link.h"
 #include "voxelizer/error.h"
 
@@ -28,6 +36,10 @@ struct SimulatorOptions {
     /// panel. When and how the device lights (dead zone, both ways, scan) stays as `display` says. Copied; what it
     /// borrows must outlive the simulator.
     std::optional<DisplayDescription> built;
+    /// How it really turns; none: it keeps to the device's clock. With conditions the device hears the index that its
+    /// description names, and shows nothing until it has found the rotation.
+    std::optional<RotorConditions> rotor;
+    bool keeps_time = false;  ///< Keeps the account that timing() gives.
 };
 
 /// Deterministic: everything follows from the packets and the times given to poll(). One thread.
@@ -42,14 +54,26 @@ public:
     Simulator& operator=(Simulator&&) noexcept;
     ~Simulator();
 
-    /// Lets the device receive, and turns the display on to `now_ns`: a boundary for each whole cycle that began since
-    /// the last call. Answers as Device::poll.
+    /// Turns the display on to `now_ns`: a boundary for each whole cycle that began since the last call. Then lets the
+    /// device receive what has come, and look at its watchdog. Answers as Device::poll. Where there is a rotor, a sink
+    /// or an account of time, it goes from event to event, a millisecond at most: that takes time in proportion.
     Status poll(std::uint64_t now_ns);
+
+    /// From the next order of the device on, gives `sink` all strobes; it is called in poll(). Null: no more. It must
+    /// not call the simulator, but for what is const.
+    void watch(StrobeSink sink);
+
+    /// Where the display really is at a time that poll() was given, or before: in cycles of its description, of which
+    /// the whole ones count frames. Where built().sync.index_phase is another, that is in it.
+    double cycles_at(std::uint64_t time_ns) const;
+
+    /// What was made of the frames in time, until the last poll(); zeros without SimulatorOptions::keeps_time.
+    const TimingWatch& timing() const;
 
     /// Another client; see Device::set_link.
     void set_link(Link link);
 
-    /// When the next boundary is due.
+    /// When to poll() again at the latest: when the next boundary is due; with a rotor in a millisecond at most.
     std::uint64_t next_boundary_ns() const;
 
     /// The light of one whole cycle of what is shown now.
