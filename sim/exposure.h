@@ -74,8 +74,12 @@ public:
     /// The same for one row of the display alone.
     void for_each_place(std::uint32_t slice, std::uint32_t panel, std::uint32_t row, const VisitRow& visit) const;
 
+    /// The light of one row of pixels wherever it was: adds to `light`, one entry for each column on the wire. Whether
+    /// there was any.
+    bool add_row_light(std::uint32_t slice, std::uint32_t panel, std::uint32_t row, std::span<glm::vec3> light) const;
+
     /// All of it as flashes, for pictures, statistics and rebuild: of each LED that was lit one for each place, with
-    /// its light in LightField::measured, Flash::time the slice that the device meant and no code.
+    /// its light in LightField::measured, Flash::time the slice that the device meant and no code. 44 bytes a flash.
     LightField light() const;
 
     const DisplayDescription& display() const;
