@@ -31,7 +31,7 @@ constexpr LineMask kEnable = 0b100;
 struct Rig {
     explicit Rig(const DisplayDescription& of) : display(of) {
         auto made = sim::make_edge_scan(
-            display, [this](const sim::Strobe& strobe) { strobes.push_back(seen_strobe(display, strobe)); },
+            display, [this](const sim::Strobe& strobe) { strobes.push_back(lit_rows(display, strobe)); },
             [this](std::uint64_t time_ns, LineMask levels, LineMask changed) {
                 pins.push_back({time_ns, levels, changed});
             });
@@ -44,7 +44,7 @@ struct Rig {
     }
 
     DisplayDescription display;
-    std::vector<SeenStrobe> strobes;
+    std::vector<LitRows> strobes;
     std::vector<PinChange> pins;
     std::vector<std::byte> page;
     std::unique_ptr<sim::ScanOut> scan;
@@ -71,7 +71,7 @@ DisplayDescription small_panel() {
 std::string lit_when_enabled(const DisplayDescription& display, const std::vector<PinChange>& pins) {
     std::string bits;
     const auto sink = [&](const sim::Strobe& strobe) {
-        std::istringstream rows(seen_strobe(display, strobe).bits);
+        std::istringstream rows(lit_rows(display, strobe).bits);
         for (std::string row; rows >> row;) bits += row.substr(row.find(':'));
     };
     std::unique_ptr<sim::PinModel> model;
@@ -136,7 +136,7 @@ TEST_CASE("strobes have the frame and the slice of the order that lit them", "[s
     rig.light(4, 50'000, 150'000, 8);  // In the middle of a strobe.
     rig.scan->run_until(200'000);
     REQUIRE(rig.strobes.size() > 4);
-    for (const SeenStrobe& strobe : rig.strobes) {
+    for (const LitRows& strobe : rig.strobes) {
         const bool first = strobe.on_ns < 50'000;
         CHECK(strobe.slice == (first ? 3 : 4));
         CHECK(strobe.frame == (first ? 7 : 8));
