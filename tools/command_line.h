@@ -80,8 +80,9 @@ void add_light(CLI::App& app, LightOptions& light);
 void add_volume(CLI::App& app, VolumeOptions& volume);
 void add_transfer(CLI::App& app, VolumeOptions& volume);
 
-/// How a simulated display behaves: --fault and --sim.
+/// How a simulated display behaves: --fault, --sim and --rotor; add_instruments() what is looked at, in this program.
 void add_simulation(CLI::App& app, SimulationOptions& options);
+void add_instruments(CLI::App& app, SimulationOptions& options);
 
 /// "64" into a number of things, at most `most`. A CLI::ValidationError says what is wrong; so below.
 std::uint32_t parse_count(const std::string& option, const std::string& text, std::uint32_t most);

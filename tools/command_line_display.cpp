@@ -42,6 +42,7 @@ void add_delivery(CLI::App& app, DeliveryOptions& options) {
                    "file looks like; needs --to loopback")
         ->type_name("NAME|FILE.toml");
     add_simulation(app, options.simulation);
+    add_instruments(app, options.simulation);
     app.add_option_function<std::string>(
            "--size", [&options](const std::string& text) { options.size = parse_size("--size", text); },
            "Pixels of --png (default 960x720); an orthographic one has three square views and only a width counts")

@@ -83,6 +83,19 @@ struct PictureSize {
 struct SimulationOptions {
     std::vector<std::string> faults;  ///< As sim::parse_fault() takes them.
     std::string file;                 ///< Of sim::Conditions; empty: none.
+    std::string rotor;                ///< As sim::parse_rotor() takes it; empty: what `file` says.
+
+    // What is seen in time, of displays in this program:
+    std::string fidelity;              ///< "strobes", or "edges"; empty: strobes, or edges with `trace`.
+    std::optional<double> exposure_s;  ///< None: a cycle.
+    std::string trace;                 ///< Files, where anything is written; empty: not.
+    std::string histogram;
+    std::string compare;
+
+    bool empty() const {
+        return faults.empty() && file.empty() && rotor.empty() && fidelity.empty() && !exposure_s && trace.empty() &&
+               histogram.empty() && compare.empty();
+    }
 };
 
 /// Where light goes, and what is told of it; shared by show, pattern and share.

@@ -57,7 +57,8 @@ Expected<Delivery> show_in_process(const DeliveryOptions& options, const Display
         }
     }
     Delivery delivery{session.statistics(), std::nullopt};
-    Expected<std::optional<LightSeen>> seen = look_at(simulator, now_ns, pixels, options, png);
+    Expected<std::optional<LightSeen>> seen =
+        look_at(*local, now_ns, pixels, options, png, [&](std::uint64_t time_ns) { (void)session.poll(time_ns); });
     if (!seen) return tl::unexpected(seen.error());
     delivery.light = std::move(*seen);
     return delivery;
@@ -110,6 +111,12 @@ Expected<Delivery> send_over(Link link, const DeliveryOptions& options, const Di
 
 }  // namespace
 
+std::string extension_of(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
 host::SessionOptions session_options(bool distant, const DisplayDescription& display,
                                      std::span<const std::byte> frame) {
     host::SessionOptions options;
@@ -156,9 +163,18 @@ Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const 
     if (!conditions) return tl::unexpected(conditions.error());
     wanted.faults = std::move(conditions->faults);
     wanted.rotor = conditions->rotor;
+    std::optional<Shutter> shutter;
+    if (Shutter::is_wanted(options.simulation, *conditions)) {
+        Expected<Shutter> made = Shutter::make(options.simulation);
+        if (!made) return tl::unexpected(made.error());
+        shutter = std::move(*made);
+        wanted.keeps_time = true;
+        const bool edges = options.simulation.fidelity == "edges" || !options.simulation.trace.empty();
+        wanted.fidelity = edges ? sim::Fidelity::Edges : sim::Fidelity::Strobes;
+    }
     Expected<sim::Simulator> simulator = sim::Simulator::make(display, link, wanted);
     if (!simulator) return tl::unexpected(simulator.error());
-    return LocalDisplay{std::move(built), std::move(*simulator)};
+    return LocalDisplay{std::move(built), std::move(*simulator), std::move(shutter)};
 }
 
 Expected<void> check_delivery(const DeliveryOptions& options, const transport::Address& address,
@@ -169,9 +185,7 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
             return fail(
                 "--png draws the light of a display in this program and needs --to loopback; leave out one of them");
         }
-        std::string extension = std::filesystem::path(options.png).extension().string();
-        for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        if (extension != ".png")
+        if (extension_of(options.png) != ".png")
             return fail(fmt::format("--png {}: the picture is a PNG; give it a name that ends in .png", options.png));
     }
     if (!options.view.empty() && options.png.empty())
@@ -182,11 +196,14 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
         return fail("--built is how a display in this program is built and needs --to loopback; leave out one of them");
     }
     const SimulationOptions& simulation = options.simulation;
-    if (!here && !(simulation.faults.empty() && simulation.file.empty())) {
+    if (const auto possible = Shutter::check(simulation); !possible) return possible;
+    if (!here && !simulation.empty()) {
+        const bool sees = simulation.faults.empty() && simulation.file.empty() && simulation.rotor.empty();
         return fail(
-            fmt::format("{} is for a display in this program and needs --to loopback; of a distant one, give "
-                        "it to xorvox sim",
-                        simulation.faults.empty() ? "--sim" : "--fault"));
+            sees ? "--fidelity, --exposure, --trace, --histogram and --compare look at a display in this program "
+                   "and need --to loopback; leave them out"
+                 : "--sim, --fault and --rotor are for a display in this program and need --to loopback; of a "
+                   "distant one, give them to xorvox sim");
     }
     if (const auto conditions = read_conditions(simulation); !conditions) return tl::unexpected(conditions.error());
     if (options.size) {
@@ -208,8 +225,10 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
     return {};
 }
 
-Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t pixels,
-                                           const DeliveryOptions& options, io::AtomicFile* png) {
+Expected<std::optional<LightSeen>> look_at(LocalDisplay& local, std::uint64_t now_ns, std::size_t pixels,
+                                           const DeliveryOptions& options, io::AtomicFile* png,
+                                           const Meanwhile& meanwhile) {
+    sim::Simulator& simulator = local.simulator;
     // Flashes, and what sorts and draws them.
     constexpr std::uint64_t kBytesAPixel = 160;
     if (!simulator.faults().empty()) {
@@ -217,13 +236,21 @@ Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std:
         pixels = sim::count_lit(simulator.built(), simulator.device().shown().page, simulator.faults());
     }
     if (const auto fits = check_memory(pixels * kBytesAPixel, "the light of " + thousands(pixels) + " pixels"); !fits) {
-        if (png != nullptr || options.json) return tl::unexpected(fits.error());
+        if (png != nullptr || options.json || local.shutter) return tl::unexpected(fits.error());
         warn("the display shows the frame, but its light is not measured: " + fits.error().message);
         return std::optional<LightSeen>();
     }
     const DisplayDescription& display = simulator.built();
-    const sim::LightField light = simulator.light();
     LightSeen seen;
+    sim::LightField light;
+    if (local.shutter) {
+        Expected<SeenInTime> in_time = local.shutter->open(simulator, now_ns, options, meanwhile);
+        if (!in_time) return tl::unexpected(in_time.error());
+        light = std::move(in_time->light);
+        seen.in_time = std::move(*in_time);
+    } else {
+        light = simulator.light();
+    }
     {
         const Progress progress("measuring the light");
         seen.statistics = sim::measure(display, light, simulator.device().status(now_ns));
@@ -277,9 +304,11 @@ Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Addr
 }
 
 std::string light_json(const std::optional<LightSeen>& light) {
-    std::string object = light ? sim::to_json(light->statistics) : "null";
-    while (object.ends_with('\n')) object.pop_back();
-    return object;
+    if (!light) return "null";
+    std::string object = sim::to_json(light->statistics);
+    while (!object.ends_with('}')) object.pop_back();
+    object.pop_back();
+    return fmt::format("{}, \"in_time\": {}}}", object, in_time_json(light->in_time));
 }
 
 std::string picture_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {

@@ -14,6 +14,7 @@
 #include "sim/simulator.h"
 #include "sim/statistics.h"
 #include "tools/commands.h"
+#include "tools/shutter.h"
 #include "transport/address.h"
 #include "voxelizer/io/atomic_file.h"
 
@@ -22,7 +23,8 @@ namespace xorvox::tools {
 /// What a display in this program showed.
 struct LightSeen {
     sim::Statistics statistics;
-    double picture_covered = 0.0;  ///< The part of the picture that is the object; 0 without one.
+    double picture_covered = 0.0;       ///< The part of the picture that is the object; 0 without one.
+    std::optional<SeenInTime> in_time;  ///< Where it was watched in time: then statistics and picture are of that.
 };
 
 /// What became of the frame.
@@ -30,6 +32,9 @@ struct Delivery {
     host::SessionStatistics session;
     std::optional<LightSeen> light;  ///< On loopback.
 };
+
+/// The end of a file's name, from its last dot on, in lower case.
+std::string extension_of(const std::string& path);
 
 /// How far the clock of a display in this program goes when nothing moves: shorter than anybody's patience.
 inline constexpr std::uint64_t kSimulatedStep_ns = 100'000'000;
@@ -52,14 +57,17 @@ Expected<void> finish_recording(const DeliveryOptions& options, sim::RecordingWr
 struct LocalDisplay {
     DisplayFile built;  ///< Of --built: the simulator borrows its points.
     sim::Simulator simulator;
+    std::optional<Shutter> shutter;  ///< Where it is to be watched in time.
 };
 /// Switches it on with `link` at its plug.
 Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const DisplayDescription& display, Link link);
 
-/// Measures what `simulator` shows, at most `pixels` of them, and draws it into `png` if there is one. Without enough
-/// memory for that: nothing, with a warning, unless a picture or JSON was asked for.
-Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t pixels,
-                                           const DeliveryOptions& options, io::AtomicFile* png);
+/// Measures what `local` shows, at most `pixels` of them, and draws it into `png` if there is one. Where it has a
+/// shutter, time goes on, and its host does `meanwhile`. Without enough memory: nothing, with a warning, unless a
+/// picture, JSON or an instrument was asked for.
+Expected<std::optional<LightSeen>> look_at(LocalDisplay& local, std::uint64_t now_ns, std::size_t pixels,
+                                           const DeliveryOptions& options, io::AtomicFile* png,
+                                           const Meanwhile& meanwhile);
 
 /// What of `options` can be refused before any work: --png, --built, --fault and --sim without loopback, faults that
 /// are none, the picture's name,

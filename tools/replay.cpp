@@ -164,7 +164,8 @@ Expected<Replayed> replay_in_process(const ReplayOptions& options, const Display
     }
     replayed.simulated_ns = now_ns;
     const std::size_t lit = sim::count_lit(display, simulator.device().shown().page);
-    Expected<std::optional<LightSeen>> seen = look_at(simulator, now_ns, lit, options.delivery, png);
+    Expected<std::optional<LightSeen>> seen = look_at(*local, now_ns, lit, options.delivery, png,
+                                                      [&](std::uint64_t) { answers.drain(host_end.get(), false); });
     if (!seen) return tl::unexpected(seen.error());
     replayed.light = std::move(*seen);
     return replayed;

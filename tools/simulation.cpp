@@ -19,6 +19,11 @@ Expected<sim::Conditions> read_conditions(const SimulationOptions& options) {
         if (!fault) return fail("--fault: " + fault.error().message);
         conditions.faults.list.push_back(*fault);
     }
+    if (!options.rotor.empty()) {
+        const Expected<sim::RotorConditions> rotor = sim::parse_rotor(options.rotor);
+        if (!rotor) return fail("--rotor: " + rotor.error().message);
+        conditions.rotor = *rotor;
+    }
     return conditions;
 }
 

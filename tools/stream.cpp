@@ -87,7 +87,8 @@ Expected<StreamDelivery> stream_in_process(const DeliveryOptions& options, const
     }
     StreamDelivery delivery{session.statistics(), stream.statistics(), true, std::nullopt, std::nullopt};
     const std::size_t lit = sim::count_lit(display, simulator.device().shown().page);
-    Expected<std::optional<LightSeen>> seen = look_at(simulator, now_ns, lit, options, png);
+    Expected<std::optional<LightSeen>> seen =
+        look_at(*local, now_ns, lit, options, png, [&](std::uint64_t time_ns) { (void)stream.poll(time_ns); });
     if (!seen) return tl::unexpected(seen.error());
     delivery.light = std::move(*seen);
     return delivery;
