@@ -74,7 +74,6 @@ struct PanelRows {
 struct Exposure::Impl {
     DisplayDescription display;
     DisplayDescription built;
-    Faults faults;
     CyclesAt cycles_at;
     std::uint64_t from_ns;
     std::uint64_t to_ns;
@@ -95,6 +94,7 @@ struct Exposure::Impl {
     void fold(Row& row, const PanelRows& panel) const;
     template <class Give>
     void for_each_lit_piece(const std::byte* bits, const PanelRows& panel, bool mirrored, const Give& give) const;
+    void add_anywhere(const Row& row, const PanelRows& panel, bool mirrored, std::span<glm::vec3> light) const;
     void visit_row(const ExposedRow& as, const Row& row, const VisitRow& visit) const;
 };
 
@@ -222,6 +222,40 @@ void Exposure::Impl::fold(Row& row, const PanelRows& panel) const {
     row.bits.clear();
 }
 
+/// Patterns that were lit at many places are taken apart once. `mirrored`: the light runs the other way round.
+void Exposure::Impl::add_anywhere(const Row& row, const PanelRows& panel, bool mirrored,
+                                  std::span<glm::vec3> light) const {
+    const auto give = [&](std::uint32_t column, std::uint32_t c, float is) {
+        glm::vec3& pixel = light[mirrored ? panel.columns - 1 - column : column];
+        if (channels == 1) {
+            pixel += is;
+        } else {
+            pixel[static_cast<int>(c)] += is;
+        }
+    };
+    const std::size_t size = pieces * panel.piece_bytes;
+    std::array<bool, kMostPatterns> taken{};
+    for (std::size_t i = 0; i < row.patterns.size(); ++i) {
+        if (taken[i]) continue;
+        const std::byte* const bits = row.bits.data() + i * size;
+        double light_ns = row.patterns[i].light_ns;
+        for (std::size_t j = i + 1; j < row.patterns.size(); ++j) {
+            if (taken[j] || std::memcmp(bits, row.bits.data() + j * size, size) != 0) continue;
+            taken[j] = true;
+            light_ns += row.patterns[j].light_ns;
+        }
+        const auto lit = static_cast<float>(light_ns * scale);
+        for_each_lit_piece(bits, panel, false,
+                           [&](std::uint32_t column, std::uint32_t c, float part) { give(column, c, part * lit); });
+    }
+    for (const Sum& sum : row.sums) {
+        for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+            give(static_cast<std::uint32_t>(i / channels), static_cast<std::uint32_t>(i % channels),
+                 static_cast<float>(double{sum.pixels[i]} * scale));
+        }
+    }
+}
+
 void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row, const VisitRow& visit) const {
     const PanelRows& panel = panels[as.panel];
     std::vector<glm::vec3> light(panel.columns, glm::vec3(0.0f));
@@ -269,9 +303,9 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row, const Visit
     }
 }
 
-Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, const Faults& faults,
-                   CyclesAt cycles_at, std::uint64_t from_ns, std::uint64_t to_ns)
-    : impl_(std::make_unique<Impl>(Impl{display, built, faults, std::move(cycles_at), from_ns, to_ns})) {
+Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
+                   std::uint64_t from_ns, std::uint64_t to_ns, Faults faults)
+    : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns, std::move(faults)})) {
     assert(to_ns > from_ns);
     Impl& impl = *impl_;
     if (display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0) impl.half_turns = 2;
@@ -321,9 +355,28 @@ void Exposure::for_each_place(std::uint32_t slice, std::uint32_t panel, std::uin
     }
 }
 
+bool Exposure::add_row_light(std::uint32_t slice, std::uint32_t panel, std::uint32_t row,
+                             std::span<glm::vec3> light) const {
+    bool any = false;
+    for (std::uint32_t half = 0; half < impl_->half_turns; ++half) {
+        const std::size_t step = std::size_t{half} * impl_->display.slices + slice;
+        const Row& found = impl_->rows[step * impl_->slice_rows + impl_->panels[panel].first_row + row];
+        any = any || !found.patterns.empty() || !found.sums.empty();
+        // As mounted, levels run the other way round in mirrored half turns, and planes were turned around.
+        impl_->add_anywhere(found, impl_->panels[panel], half == 1 && !impl_->of_levels, light);
+    }
+    return any;
+}
+
 LightField Exposure::light() const {
     LightField field;
     field.pixels = impl_->pixels;
+    std::size_t flashes = 0;
+    for_each_row([&](const ExposedRow& row) {
+        flashes += row.light.size() - static_cast<std::size_t>(std::ranges::count(row.light, glm::vec3(0.0f)));
+    });
+    field.flashes.reserve(flashes);
+    field.measured.reserve(flashes);
     for_each_row([&](const ExposedRow& row) {
         const double swapped = double{1} * lit_slice(row.slice, impl_->faults) - row.slice;
         const Seats seats(impl_->built, row.panel, row.at + swapped, impl_->faults);

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "sim/canvas.h"
-#include "sim/exposed_voxels.h"
+#include "sim/pixel_light.h"
+#include "sim/pixel_rows.h"
 
 namespace xorvox::sim {
 namespace {
@@ -122,11 +123,28 @@ LightHistogram make_histogram(const Exposure& exposure, std::span<const std::byt
     LightHistogram histogram;
     histogram.display = exposure.display().name.view();
     histogram.exposure_ms = static_cast<double>(exposure.to_ns() - exposure.from_ns()) * 1e-6;
-    for_each_voxel(exposure, page, brightness, [&](const ExposedVoxel& voxel) {
-        if (voxel.sent != glm::vec3(0.0f)) ++histogram.sent[bin_of(voxel.sent)];
-        if (voxel.light != glm::vec3(0.0f)) ++histogram.lit[bin_of(voxel.light)];
-        histogram.lost += voxel.is_lost();
-    });
+    const DisplayDescription& display = exposure.display();
+    const PixelLight pixels(display);
+    const float full = static_cast<float>(brightness) / 255.0f;
+    const std::vector<std::byte> dark(page.empty() ? frame_bytes(display) : 0);
+    std::vector<glm::vec3> sent;
+    std::vector<glm::vec3> light;
+    const auto count = [&](std::uint32_t slice, std::uint32_t p, std::uint32_t row, std::span<const std::byte> bytes) {
+        const std::uint32_t columns = display.panels[p].columns;
+        sent.assign(columns, glm::vec3(0.0f));
+        light.assign(columns, glm::vec3(0.0f));
+        for_each_lit(bytes, columns, bits_per_pixel(display.format), pixels.shown_bits(),
+                     [&](std::uint32_t column, std::uint32_t code) { sent[column] = full * pixels.of(code); });
+        (void)exposure.add_row_light(slice, p, row, light);
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const bool is_sent = sent[column] != glm::vec3(0.0f);
+            const bool is_lit = light[column] != glm::vec3(0.0f);
+            if (is_sent) ++histogram.sent[bin_of(sent[column])];
+            if (is_lit) ++histogram.lit[bin_of(light[column])];
+            histogram.lost += is_sent && !is_lit;
+        }
+    };
+    for_each_row(display, page.empty() ? dark : page, count);
     return histogram;
 }
 

@@ -26,7 +26,8 @@ struct LightHistogram {
     std::uint64_t lost = 0;                  ///< That the frame lights and that were not lit.
 };
 
-/// `page` and `brightness` as for for_each_voxel() (sim/exposed_voxels.h). Throws std::bad_alloc.
+/// A few nanoseconds a voxel. `page` and `brightness` as for for_each_voxel() (sim/exposed_voxels.h). Throws
+/// std::bad_alloc.
 LightHistogram make_histogram(const Exposure& exposure, std::span<const std::byte> page, std::uint8_t brightness);
 
 /// Lines of text: a header, then `from,to,sent,lit` for each bin; `to` of the last one is "inf".

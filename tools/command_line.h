@@ -28,6 +28,7 @@ struct AllOptions {
     BenchOptions bench;
     BenchDisplayOptions bench_display;
     BenchColorOptions bench_color;
+    BenchSimOptions bench_sim;
     DisplaysOptions displays;
     ValidateOptions validate;
     PlanOptions plan;

@@ -223,6 +223,13 @@ struct BenchColorOptions {
     bool json = false;
 };
 
+struct BenchSimOptions {
+    std::string mesh;
+    std::vector<std::string> displays{"vortex", "rotovox"};
+    double seconds = 2.0;  ///< For which the shutter is open.
+    bool json = false;
+};
+
 struct UniformityOptions {
     std::vector<std::string> displays;  ///< Empty: every preset.
     std::uint32_t frames = 8;           ///< Of dithering in time; at least 1.
@@ -242,6 +249,7 @@ Expected<void> share(const ShareOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> bench_displays(const BenchDisplayOptions& options);
 Expected<void> bench_color(const BenchColorOptions& options);
+Expected<void> bench_sim(const BenchSimOptions& options);
 Expected<void> displays(const DisplaysOptions& options);
 Expected<void> validate(const ValidateOptions& options);
 Expected<void> control(const ControlOptions& options);

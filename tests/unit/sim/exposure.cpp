@@ -45,6 +45,24 @@ Lights lights_of(const sim::Exposure& exposure) {
     return lights;
 }
 
+/// The same without places.
+Lights lights_anywhere(const sim::Exposure& exposure) {
+    Lights lights;
+    const DisplayDescription& display = exposure.display();
+    for (std::uint32_t slice = 0; slice < display.slices; ++slice) {
+        for (std::uint32_t p = 0; p < display.panel_count; ++p) {
+            for (std::uint32_t row = 0; row < display.panels[p].rows; ++row) {
+                std::vector<glm::vec3> light(display.panels[p].columns, glm::vec3(0.0f));
+                if (!exposure.add_row_light(slice, p, row, light)) continue;
+                for (std::uint32_t column = 0; column < light.size(); ++column) {
+                    if (light[column] != glm::vec3(0.0f)) lights[{slice, p, row, column}] = light[column];
+                }
+            }
+        }
+    }
+    return lights;
+}
+
 /// The steady light of a page.
 Lights steady_lights(const DisplayDescription& display, std::span<const std::byte> page) {
     Lights lights;
@@ -73,7 +91,7 @@ std::vector<std::byte> white_page(const DisplayDescription& display) {
 sim::Exposure exposed(const DisplayDescription& display, std::span<const std::byte> page, std::uint32_t cycles = 1,
                       sim::Exposure::CyclesAt cycles_at = {}, std::uint8_t brightness = 255) {
     const TimeAt time_at = perfect_time(display);
-    sim::Exposure exposure(display, display, {}, std::move(cycles_at), time_at(device::kCycle),
+    sim::Exposure exposure(display, display, std::move(cycles_at), time_at(device::kCycle),
                            time_at((1 + cycles) * device::kCycle));
     const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) { exposure.add(strobe); });
     scan_page(display, page, cycles + 2, *scan, time_at, brightness);
@@ -148,7 +166,9 @@ TEST_CASE("responses that are not linear, both ways of a sweep, and half turns g
         CAPTURE(display.name.view(), display.sweep_deg);
         const std::vector<std::byte> page = random_page(display);
         CHECK(greatest_difference(lights_of(exposed(display, page)), steady_lights(display, page)) < 1e-5);
-        CHECK(greatest_difference(lights_of(exposed(display, page, 2)), steady_lights(display, page)) < 1e-5);
+        const sim::Exposure two = exposed(display, page, 2);
+        CHECK(greatest_difference(lights_of(two), steady_lights(display, page)) < 1e-5);
+        CHECK(greatest_difference(lights_anywhere(two), lights_of(two)) < 1e-6);
     }
 }
 
@@ -275,6 +295,7 @@ TEST_CASE("jitter smears light, and loses none") {
     };
     const sim::Exposure exposure = exposed(display, page, 5, cycles_at);
     CHECK(greatest_difference(lights_of(exposure), steady_lights(display, page)) < 1e-6);
+    CHECK(greatest_difference(lights_anywhere(exposure), steady_lights(display, page)) < 1e-6);
     std::size_t places = 0;
     double most = 0.0;
     exposure.for_each_row([&](const sim::ExposedRow& row) {
@@ -289,7 +310,7 @@ TEST_CASE("rows that never stay the same are added up, at the same light") {
     const DisplayDescription display = hub75_rotor();
     const TimeAt time_at = perfect_time(display);
     constexpr std::uint32_t kCycles = 40;
-    sim::Exposure exposure(display, display, {}, {}, 0, time_at(kCycles * device::kCycle));
+    sim::Exposure exposure(display, display, {}, 0, time_at(kCycles * device::kCycle));
     const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) {
         sim::Strobe later = strobe;
         exposure.add(later);
@@ -305,11 +326,12 @@ TEST_CASE("rows that never stay the same are added up, at the same light") {
         scan_page(display, page, 1, *scan, at_cycle);
     }
     CHECK(greatest_difference(lights_of(exposure), sum) < 2e-6);
+    CHECK(greatest_difference(lights_anywhere(exposure), sum) < 2e-6);
 }
 
 TEST_CASE("a shutter cuts the light of a strobe") {
     const DisplayDescription display = stack_of(2, 1, 1);
-    sim::Exposure exposure(display, display, {}, {}, 1000, 10'001'000);  // A cycle.
+    sim::Exposure exposure(display, display, {}, 1000, 10'001'000);  // A cycle.
     const std::array bits{std::byte{0b10}};
     sim::Strobe strobe{.on_ns = 0, .off_ns = 2000, .row_group = sim::Strobe::kAllRows, .plane = sim::Strobe::kLevels};
     strobe.panels[0] = {.first = bits.data(), .row_bytes = 1};
