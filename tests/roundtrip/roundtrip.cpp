@@ -75,18 +75,17 @@ std::vector<sim::Fault> possible_faults(const DisplayDescription& display, const
     return faults;
 }
 
-void is_red_with_every_fault(const DisplayDescription& display, const sim::DisplaySamples& samples,
-                             const Picture& picture) {
+void is_red_with(const std::vector<sim::Fault>& faults, const DisplayDescription& display,
+                 const sim::DisplaySamples& samples, const Picture& picture) {
     CAPTURE(std::string(display.name.view()));
-    const auto rebuilt_with = [&](const sim::Faults& faults) {
-        Rig rig(display, Rig::Over::Loopback, {}, faults);
+    const auto rebuilt_with = [&](const sim::Faults& broken) {
+        Rig rig(display, Rig::Over::Loopback, {}, broken);
         REQUIRE(rig.show(picture.frame));
         return samples.rebuild(rig.light());
     };
     const sim::Rebuilt truth = samples.faithful(picture.codes);
     CHECK((rebuilt_with({}) == truth));
-    const std::vector<sim::Fault> faults = possible_faults(display, picture);
-    CHECK(faults.size() >= 6);
+    CHECK(faults.size() >= 3);
     for (const sim::Fault& fault : faults) {
         CAPTURE(std::string(sim::to_string(fault.kind)), fault.amount);
         CHECK_FALSE((rebuilt_with({{fault}}) == truth));
@@ -113,7 +112,12 @@ TEST_CASE("what lights up equals what was voxelized: the largest presets, in the
         const sim::DisplaySamples samples(display);
         const Picture picture = paint(display, hollow(0));
         REQUIRE(picture.codes.size() > samples.size() / 100);
-        is_red_with_every_fault(display, samples, picture);
+        std::vector<sim::Fault> faults = possible_faults(display, picture);
+        std::erase_if(faults, [](const sim::Fault& fault) {  // Of those that any display can have.
+            return fault.kind != sim::FaultKind::Mirrored && fault.kind != sim::FaultKind::SwappedSlices &&
+                   fault.kind != sim::FaultKind::Phase;
+        });
+        is_red_with(faults, display, samples, picture);
     }
 }
 
@@ -130,7 +134,10 @@ TEST_CASE("a display with any fault does not show what was voxelized, but for pa
     std::vector<DisplayFile> displays = odd_displays();
     std::ranges::move(small_presets(), std::back_inserter(displays));
     for (const DisplayFile& display : displays) {
-        is_red_with_every_fault(display, sim::DisplaySamples(display), paint(display, lopsided(0)));
+        const Picture picture = paint(display, lopsided(0));
+        const std::vector<sim::Fault> faults = possible_faults(display, picture);
+        CHECK(faults.size() >= 6);
+        is_red_with(faults, display, sim::DisplaySamples(display), picture);
     }
 }
 
