@@ -153,6 +153,8 @@ private:
     typename Driver::Scanner scanner_;
 };
 
+constexpr std::uint32_t kFastestClockHz = 500'000'000;
+
 /// Why there are no pins of `display`; empty: there are.
 std::string why_no_pins(const DisplayDescription& display) {
     const std::string_view driver = display::name_of(display::kDriverNames, display.scan.driver);
@@ -160,6 +162,10 @@ std::string why_no_pins(const DisplayDescription& display) {
     if (display.light.response != Response::Linear) {
         return fmt::format("its response is \"{}\", which a controller of its own makes, and pins give linear light",
                            display::name_of(display::kResponseNames, display.light.response));
+    }
+    if (display.scan.pixel_clock_hz > kFastestClockHz) {
+        return fmt::format("its pixel clock is {} Hz, and edges of more than {} Hz fall into one nanosecond",
+                           display.scan.pixel_clock_hz, kFastestClockHz);
     }
     switch (display.scan.driver) {
         case DriverChip::Ws2812:

@@ -86,7 +86,7 @@ Expected<double> read_number(const Setting& setting, const Range& range) {
     double value = 0.0;
     const char* const end = setting.value.data() + setting.value.size();
     const auto [rest, error] = std::from_chars(setting.value.data(), end, value);
-    if (error != std::errc() || rest != end) {
+    if (error != std::errc() || rest != end || (range.whole && value != std::floor(value))) {
         return fail(fmt::format("{}: found {}; allowed: a {} from {} to {}", setting.name,
                                 display::in_quotes(setting.value), range.whole ? "whole number" : "number",
                                 range.lowest, range.highest));

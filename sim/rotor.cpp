@@ -16,7 +16,7 @@ namespace {
 using transport::Random;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFastest = 100.0;  ///< Times the description's speed.
+constexpr double kFastest = 1000.0;  ///< Times the description's speed.
 constexpr std::int64_t kReportsPerTurn = 16;
 
 /// Turns against time, as the drive would make them without jitter. Times in nanoseconds.

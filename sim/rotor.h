@@ -24,10 +24,10 @@ namespace xorvox::sim {
 
 /// What the drive and its sensor do. A turn is a turn of a rotor or helix, or a sweep up and back.
 struct RotorConditions {
-    double speed = 1.0;         ///< Times the description's speed, once it is reached; 0.01 … 100.
+    double speed = 1.0;         ///< Times the description's speed, once it is reached; 0.001 … 1000.
     double spin_up_s = 0.0;     ///< From rest to that speed, at even acceleration; 0: it turns from the beginning.
     double acceleration = 0.0;  ///< From then on: change of speed a second, as a part of the description's speed, until
-                                ///< it stands or is 100 times as fast as described.
+                                ///< it stands or is 1000 times as fast as described.
     double jitter = 0.0;        ///< Each turn is longer or shorter by up to this part, evenly; 0 … 0.5.
     double missed = 0.0;   ///< Probability, of each index pulse or encoder's mark, that the sensor does not see it.
     double doubled = 0.0;  ///< That it gives another one soon after it, at up to a fifth of the way to the next.

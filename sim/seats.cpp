@@ -22,25 +22,6 @@ std::complex<double> turn_by(double turns) {
     return std::polar(1.0, 2.0 * std::numbers::pi * turns);
 }
 
-/// Place number `index` of those that are counted, after faults have swapped some.
-std::int64_t swapped(std::int64_t index, const Faults& faults) {
-    for (const Fault& fault : faults.list) {
-        if (fault.kind != FaultKind::SwappedSlices) continue;
-        if (index == fault.slice) {
-            index = fault.other;
-        } else if (index == fault.other) {
-            index = fault.slice;
-        }
-    }
-    return index;
-}
-
-/// The same within the slice where the other one's light would be.
-double swapped(double at, const Faults& faults) {
-    const double slice = std::floor(at);
-    return at - slice + static_cast<double>(swapped(static_cast<std::int64_t>(slice), faults));
-}
-
 /// A counter that wraps.
 std::uint32_t wrapped(std::int64_t index, std::uint32_t count) {
     const std::int64_t rest = index % count;
@@ -68,8 +49,20 @@ double plane_shift_mm(std::uint32_t plane, const Faults& faults) {
 
 }  // namespace
 
+std::uint32_t lit_slice(std::uint32_t slice, const Faults& faults) {
+    for (const Fault& fault : faults.list) {
+        if (fault.kind != FaultKind::SwappedSlices) continue;
+        if (slice == fault.slice) {
+            slice = fault.other;
+        } else if (slice == fault.other) {
+            slice = fault.slice;
+        }
+    }
+    return slice;
+}
+
 Seats::Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Faults& faults)
-    : Seats(display, panel, slice + 0.5, faults) {}
+    : Seats(display, panel, lit_slice(slice, faults) + 0.5, faults) {}
 
 Seats::Seats(const DisplayDescription& display, std::uint32_t panel, double at, const Faults& faults)
     : display_(display),
@@ -77,7 +70,7 @@ Seats::Seats(const DisplayDescription& display, std::uint32_t panel, double at, 
       panel_(as_built(display.panels[panel], panel, faults)),
       on_side_(turn_by(panel_.turned / 4.0)),
       tilt_(turn_by(panel_.tilt_deg / 360.0)) {
-    const double late = swapped(at, faults) + faults.late_slices();
+    const double late = at + faults.late_slices();
     switch (display.kind) {
         case DisplayKind::StackedPlanes: {
             const std::uint32_t plane = wrapped(static_cast<std::int64_t>(std::floor(late)), display.slices);
@@ -107,7 +100,7 @@ glm::dvec3 Seats::place_mm(std::uint32_t row, std::uint32_t column) const {
         case DisplayKind::Helix: return {x, rising, screen_height(Turn(x, rising))};
         case DisplayKind::FreePoints: break;
     }
-    const std::int64_t number = swapped(std::int64_t{row} * panel_.columns + column, faults_) +
+    const std::int64_t number = std::int64_t{lit_slice(row * panel_.columns + column, faults_)} +
                                 static_cast<std::int64_t>(faults_.late_slices());
     const PointMm& point = display_.points[wrapped(number, static_cast<std::uint32_t>(display_.points.size()))];
     return {point.x, point.y, point.z};

@@ -12,13 +12,17 @@
 
 namespace xorvox::sim {
 
+/// The slice, or point of a string, in whose place `slice` is lit: another one where faults have swapped the two.
+std::uint32_t lit_slice(std::uint32_t slice, const Faults& faults);
+
 class Seats {
 public:
     /// `display` must be valid, and is borrowed, as is `faults`, of which those of its pose count (sim/faults.h).
     Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Faults& faults);
 
-    /// The same where the display is at `at` of its slices: slice s is lit from s to s + 1, and its samples stand at s
-    /// + ½. Before and after them as FaultKind::Phase says. Of a stack: the plane floor(at).
+    /// The same where the display is at `at` of its slices, whichever slice was meant (lit_slice): slice s is lit from
+    /// s to s + 1, and its samples stand at s + ½. Before and after them as FaultKind::Phase says. Of a stack: the
+    /// plane floor(at).
     Seats(const DisplayDescription& display, std::uint32_t panel, double at, const Faults& faults);
 
     /// Of the LED in this row and column.

@@ -81,11 +81,26 @@ struct Simulator::Impl {
     LinkTap tap{timing};
     bool keeps_time = false;
     std::optional<Clockwork> clockwork;
+    Fidelity fidelity = Fidelity::Strobes;
+    StrobeSink strobe_sink;
+    PinSink pin_sink;
 
     /// What the device is given of `link`.
     Link plugged(Link link) {
-        link = wire.over(link, faults);
-        return keeps_time ? tap.over(link) : link;
+        const Link what_arrives = wire.over(link, faults);
+        return keeps_time ? tap.over(what_arrives) : what_arrives;
+    }
+
+    void scan_anew() {
+        const bool edges = fidelity == Fidelity::Edges;
+        std::unique_ptr<ScanOut> scan;
+        if (strobe_sink || (edges && pin_sink)) {
+            StrobeSink sink = with_wiring_faults(
+                display, faults, strobe_sink ? strobe_sink : [](const Strobe&) {});
+            scan = edges ? make_edge_scan(display, std::move(sink), pin_sink).value()
+                         : make_strobe_scan(display, std::move(sink));
+        }
+        clockwork->set_scan(std::move(scan));
     }
 };
 
@@ -101,6 +116,11 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
     if (const Expected<void> possible = check_faults(built, options.faults); !possible) {
         return tl::unexpected(possible.error());
     }
+    if (options.fidelity == Fidelity::Edges) {
+        if (const auto scan = make_edge_scan(display, [](const Strobe&) {}, {}); !scan) {
+            return tl::unexpected(scan.error());
+        }
+    }
     auto impl = std::make_unique<Impl>();
     impl->display = display;
     impl->built = built;
@@ -109,6 +129,7 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
     impl->faults = options.faults;
     impl->late_slices = late_slices(display, built);
     impl->keeps_time = options.keeps_time;
+    impl->fidelity = options.fidelity;
     impl->pages.resize(std::size_t{options.pages} * frame_bytes(display));
     impl->packet.resize(options.max_packet_bytes);
 
@@ -148,9 +169,13 @@ Status Simulator::poll(std::uint64_t now_ns) {
 }
 
 void Simulator::watch(StrobeSink sink) {
-    impl_->clockwork->set_scan(
-        sink ? make_strobe_scan(impl_->display, with_wiring_faults(impl_->built, impl_->faults, std::move(sink)))
-             : nullptr);
+    impl_->strobe_sink = std::move(sink);
+    impl_->scan_anew();
+}
+
+void Simulator::watch_pins(PinSink sink) {
+    impl_->pin_sink = std::move(sink);
+    impl_->scan_anew();
 }
 
 double Simulator::cycles_at(std::uint64_t time_ns) const {

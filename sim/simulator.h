@@ -18,12 +18,19 @@
 #include "driver/display/description.h"
 #include "sim/optics.h"
 #include "sim/rotor.h"
+#include "sim/scan_out.h"
 #include "sim/strobe.h"
 #include "sim/timing.h"
 #include "transport/link.h"
 #include "voxelizer/error.h"
 
 namespace xorvox::sim {
+
+/// How exactly orders become light.
+enum class Fidelity : std::uint8_t {
+    Strobes,  ///< Row and plane events; fast.
+    Edges,    ///< The device half's scanner sets pins, and models of the chips say what is lit; the same light.
+};
 
 struct SimulatorOptions {
     std::uint32_t pages = 3;
@@ -39,6 +46,7 @@ struct SimulatorOptions {
     /// How it really turns; none: it keeps to the device's clock. With conditions the device hears the index that its
     /// description names, and shows nothing until it has found the rotation.
     std::optional<RotorConditions> rotor;
+    Fidelity fidelity = Fidelity::Strobes;
     bool keeps_time = false;  ///< Keeps the account that timing() gives.
 };
 
@@ -48,7 +56,8 @@ public:
     /// A display that is switched on at time 0 with `link` at its plug (empty: see set_link). `display` is copied; what
     /// it borrows must outlive the simulator. Fails for a display that validate_display() refuses, with its words, for
     /// an `options.built` whose frames have another layout, for faults that it cannot have, and for sizes that no
-    /// device has. Throws std::bad_alloc.
+    /// device has; for Fidelity::Edges also for displays without models of their chips (make_edge_scan). Throws
+    /// std::bad_alloc.
     static Expected<Simulator> make(const DisplayDescription& display, Link link, const SimulatorOptions& options = {});
     Simulator(Simulator&&) noexcept;
     Simulator& operator=(Simulator&&) noexcept;
@@ -59,9 +68,12 @@ public:
     /// or an account of time, it goes from event to event, a millisecond at most: that takes time in proportion.
     Status poll(std::uint64_t now_ns);
 
-    /// From the next order of the device on, gives `sink` all strobes; it is called in poll(). Null: no more. It must
-    /// not call the simulator, but for what is const.
+    /// From the next order of the device on, gives `sink` all strobes, as the LEDs are lit: with the faults of wiring.
+    /// It is called in poll(). Null: no more. It must not call the simulator, but for what is const.
     void watch(StrobeSink sink);
+    /// The same with all changes of the pins, whose names pin_names(display()) tells. Fidelity::Edges only: else there
+    /// are none. Each call of watch() and watch_pins() begins the scan-out anew, dark.
+    void watch_pins(PinSink sink);
 
     /// Where the display really is at a time that poll() was given, or before: in cycles of its description, of which
     /// the whole ones count frames. Where built().sync.index_phase is another, that is in it.

@@ -35,6 +35,10 @@ struct AllOptions {
     PatternOptions pattern;
     ControlOptions control;
     UniformityOptions uniformity;
+    PlayOptions record;
+    ReplayOptions replay;
+    DiffOptions diff;
+    int exit_status = 0;  ///< Of the program, where the command did what it should.
 };
 
 /// What a subcommand is, and what runs when it was given.
@@ -47,6 +51,7 @@ struct Command {
 std::vector<Command> mesh_commands(CLI::App& program, AllOptions& options);
 Command convert_command(CLI::App& program, ConvertOptions& options);
 std::vector<Command> display_commands(CLI::App& program, AllOptions& options);
+std::vector<Command> recording_commands(CLI::App& program, AllOptions& options);
 Command bench_command(CLI::App& program, AllOptions& options);
 
 /// The lines below an `Examples:` at the end of a command's help.
@@ -56,6 +61,18 @@ void examples(CLI::App& app, const std::string& text);
 void add_mesh(CLI::App& app, MeshOptions& mesh);
 void add_reading(CLI::App& app, MeshOptions& mesh);
 void add_strict(CLI::App& app, MeshOptions& mesh);
+
+/// A display of the caller's choice.
+void add_display(CLI::App& app, std::string& display);
+/// --to, --png and what belongs to it.
+void add_delivery(CLI::App& app, DeliveryOptions& options);
+/// What is shown, on what and how, but for add_delivery().
+void add_looks(CLI::App& app, StageOptions& options);
+/// Files that are shown, and how they move.
+void add_motion(CLI::App& app, PlayOptions& options);
+/// A number above zero.
+CLI::Option* add_positive(CLI::App& app, const std::string& name, std::function<void(double)> set,
+                          const std::string& type, const std::string& help);
 
 /// How colours become light; for the commands that show models.
 void add_light(CLI::App& app, LightOptions& light);

@@ -7,12 +7,6 @@
 namespace xorvox::tools {
 namespace {
 
-void add_display(CLI::App& app, std::string& display) {
-    app.add_option("--display", display, "A preset (see xorvox displays) or a display file")
-        ->required()
-        ->type_name("NAME|FILE.toml");
-}
-
 /// "960x720" into pixels.
 PictureSize parse_size(const std::string& option, const std::string& text) {
     const std::size_t cross = text.find('x');
@@ -20,7 +14,14 @@ PictureSize parse_size(const std::string& option, const std::string& text) {
     return {parse_count(option, text.substr(0, cross), 4096), parse_count(option, text.substr(cross + 1), 4096)};
 }
 
-/// Where light goes; for show, pattern and share.
+}  // namespace
+
+void add_display(CLI::App& app, std::string& display) {
+    app.add_option("--display", display, "A preset (see xorvox displays) or a display file")
+        ->required()
+        ->type_name("NAME|FILE.toml");
+}
+
 void add_delivery(CLI::App& app, DeliveryOptions& options) {
     app.add_option("--to", options.to,
                    "Where it goes: loopback (a simulated display in this program, the default), tcp:HOST:PORT, or "
@@ -45,6 +46,8 @@ void add_delivery(CLI::App& app, DeliveryOptions& options) {
            "--size", [&options](const std::string& text) { options.size = parse_size("--size", text); },
            "Pixels of --png (default 960x720); an orthographic one has three square views and only a width counts")
         ->type_name("WxH");
+    app.add_option("--record", options.record, "What passes the link, as a recording (docs/recordings.md)")
+        ->type_name("F.xvr");
     app.add_flag("--hold", options.hold,
                  "Stay until interrupted. Without it a display goes dark when its watchdog (2 s) misses the host");
     app.add_flag("--json", options.json, "What was sent and what lit up, as one JSON object on standard output");
@@ -58,8 +61,7 @@ CLI::Option* add_positive(CLI::App& app, const std::string& name, std::function<
         ->type_name(type);
 }
 
-/// What is shown, on what and how; for show and play.
-void add_stage(CLI::App& app, StageOptions& options) {
+void add_looks(CLI::App& app, StageOptions& options) {
     add_strict(app, options.mesh);
     add_display(app, options.display);
     app.add_option("--color", options.color,
@@ -78,6 +80,45 @@ void add_stage(CLI::App& app, StageOptions& options) {
            "first, which the samples then take the nearest voxel of")
         ->check(CLI::IsMember({"native", "cartesian"}).description(""))
         ->type_name("native|cartesian");
+}
+
+void add_motion(CLI::App& app, PlayOptions& options) {
+    app.add_option("files", options.files, "A model, or several that are shown one after the other")
+        ->required()
+        ->type_name("FILE");
+    add_reading(app, options.stage.mesh);
+    CLI::Option* const timeline =
+        app.add_option("--timeline", options.timeline, "How it moves: keyframes in a file")->type_name("FILE.toml");
+    app.add_option("--motion", options.motion,
+                   "The same as typed: how the model moves and turns, as in 'at=0; at=4 turn=0,0,360 move=0,0,10'")
+        ->excludes(timeline)
+        ->type_name("KEYFRAMES");
+    app.add_option("--camera", options.camera,
+                   "How the display moves through the scene, as in 'at=0; at=5 center=10,0,0 zoom=3 ease=smooth'")
+        ->excludes(timeline)
+        ->type_name("KEYFRAMES");
+    add_positive(
+        app, "--spin", [&options](double rpm) { options.spin_rpm = rpm; }, "RPM",
+        "Turn the model about its upright axis so many times a minute");
+    add_positive(
+        app, "--fps", [&options](double fps) { options.stage.files_per_second = fps; }, "N",
+        "Files, or frames of a file that has no time of its own, a second (default 10)");
+    app.add_option("--animation", options.stage.animation,
+                   "Which of the file's animations, by its name or number from 0 (default the first; xorvox info lists "
+                   "them)")
+        ->type_name("NAME|N");
+    app.parse_complete_callback([&options] {
+        if (options.files.empty()) return;
+        options.stage.mesh.path = options.files.front();
+        options.stage.following.assign(options.files.begin() + 1, options.files.end());
+    });
+}
+
+namespace {
+
+/// What is shown, on what and how; for show and play.
+void add_stage(CLI::App& app, StageOptions& options) {
+    add_looks(app, options);
     add_delivery(app, options.delivery);
 }
 
@@ -103,40 +144,12 @@ Command show_command(CLI::App& program, ShowOptions& options) {
 Command play_command(CLI::App& program, PlayOptions& options) {
     CLI::App& app = *program.add_subcommand(
         "play", "Show what moves: a model by keyframes, a sequence of files, an animation; see docs/play.md");
-    app.add_option("files", options.files, "A model, or several that are shown one after the other")
-        ->required()
-        ->type_name("FILE");
-    add_reading(app, options.stage.mesh);
+    add_motion(app, options);
     add_stage(app, options.stage);
-    CLI::Option* const timeline =
-        app.add_option("--timeline", options.timeline, "How it moves: keyframes in a file")->type_name("FILE.toml");
-    app.add_option("--motion", options.motion,
-                   "The same as typed: how the model moves and turns, as in 'at=0; at=4 turn=0,0,360 move=0,0,10'")
-        ->excludes(timeline)
-        ->type_name("KEYFRAMES");
-    app.add_option("--camera", options.camera,
-                   "How the display moves through the scene, as in 'at=0; at=5 center=10,0,0 zoom=3 ease=smooth'")
-        ->excludes(timeline)
-        ->type_name("KEYFRAMES");
-    add_positive(
-        app, "--spin", [&options](double rpm) { options.spin_rpm = rpm; }, "RPM",
-        "Turn the model about its upright axis so many times a minute");
-    add_positive(
-        app, "--fps", [&options](double fps) { options.stage.files_per_second = fps; }, "N",
-        "Files, or frames of a file that has no time of its own, a second (default 10)");
     add_positive(
         app, "--seconds", [&options](double seconds) { options.seconds = seconds; }, "S",
         "How long to play (default: until all has moved once)");
-    app.add_option("--animation", options.stage.animation,
-                   "Which of the file's animations, by its name or number from 0 (default the first; xorvox info lists "
-                   "them)")
-        ->type_name("NAME|N");
     app.add_flag("--loop", options.loop, "Begin anew at the end, until interrupted or for --seconds");
-    app.parse_complete_callback([&options] {
-        if (options.files.empty()) return;
-        options.stage.mesh.path = options.files.front();
-        options.stage.following.assign(options.files.begin() + 1, options.files.end());
-    });
     examples(app,
              "  xorvox play bunny.ply --up y --display vortex --motion 'at=0; at=4 turn=0,0,360' --png last.png\n"
              "  xorvox play walk*.obj --fps 12 --loop --display cube16-ws2812 --to tcp:127.0.0.1:7777\n"
@@ -154,10 +167,13 @@ Command sim_command(CLI::App& program, SimOptions& options) {
         ->required()
         ->type_name("ADDRESS");
     add_simulation(app, options.simulation);
+    app.add_option("--record", options.record, "What passes, as a recording (docs/recordings.md), whole once it ends")
+        ->type_name("F.xvr");
     app.add_flag("--json", options.json, "One JSON object a line on standard output, for every frame shown");
     examples(app,
              "  xorvox sim --display vortex --listen tcp:7777\n"
-             "  xorvox sim --display vortex --listen tcp:7777 --fault lost-packets:part=0.1");
+             "  xorvox sim --display vortex --listen tcp:7777 --fault lost-packets:part=0.1\n"
+             "  xorvox sim --display vortex --listen tcp:7777 --record seen.xvr");
     return {&app, [&options] { return tools::sim(options); }};
 }
 

@@ -94,7 +94,8 @@ struct DeliveryOptions {
     std::string built;  ///< A preset or display file: the simulated display as it is really built; empty: no other.
     std::optional<PictureSize> size;
     SimulationOptions simulation;
-    bool hold = false;  ///< Stay until a signal.
+    std::string record;  ///< A recording of the link; empty: none.
+    bool hold = false;   ///< Stay until a signal.
     bool json = false;
 };
 
@@ -126,6 +127,7 @@ struct PlayOptions {
     std::string camera;
     std::optional<double> spin_rpm;
     std::optional<double> seconds;  ///< None: as long as what moves needs.
+    std::uint64_t frames = 0;       ///< 0: for `seconds`; else so many frames, whether or not anything moves.
     bool loop = false;
 };
 
@@ -142,6 +144,21 @@ struct ShareOptions {
     double seconds = 0.0;      ///< 0: until a signal.
     std::uint32_t frames = 0;  ///< Ends when so many were published and the last is shown; 0: any number.
     DeliveryOptions delivery;
+};
+
+struct ReplayOptions {
+    std::string file;
+    std::string display;          ///< Instead of the one that was recorded; empty: that one.
+    std::optional<double> speed;  ///< 0: as fast as it goes; none: as recorded.
+    double seek_seconds = 0.0;
+    bool keep_going = false;  ///< What is whole of a damaged recording.
+    DeliveryOptions delivery;
+};
+
+struct DiffOptions {
+    std::string a;
+    std::string b;
+    bool json = false;
 };
 
 struct ControlOptions {
@@ -170,6 +187,7 @@ struct SimOptions {
     std::string display = "cube16-ws2812";
     std::string listen;
     SimulationOptions simulation;
+    std::string record;  ///< A recording of all clients; empty: none.
     bool json = false;
 };
 
@@ -223,6 +241,9 @@ Expected<void> voxelize(const VoxelizeOptions& options);
 Expected<void> convert(const ConvertOptions& options);
 Expected<void> show(const ShowOptions& options);
 Expected<void> play(const PlayOptions& options);
+Expected<void> replay(const ReplayOptions& options);
+/// Whether the two show the same.
+Expected<bool> diff(const DiffOptions& options);
 Expected<void> sim(const SimOptions& options);
 Expected<void> share(const ShareOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);

@@ -14,6 +14,7 @@
 #include "driver/host/faults.h"
 #include "driver/wire/packet.h"
 #include "sim/picture.h"
+#include "sim/recording/record_link.h"
 #include "sim/simulator.h"
 #include "tools/clock.h"
 #include "tools/console.h"
@@ -35,14 +36,16 @@ Expected<void> write_png(io::AtomicFile& file, const sim::Image& image) {
 
 /// A display in this program, in simulated time: both ends move in turn, and the clock jumps when neither can.
 Expected<Delivery> show_in_process(const DeliveryOptions& options, const DisplayDescription& display,
-                                   std::span<const std::byte> frame, std::size_t pixels, io::AtomicFile* png) {
-    auto [host_end, device_end] = transport::make_loopback();
+                                   std::span<const std::byte> frame, std::size_t pixels, io::AtomicFile* png,
+                                   sim::RecordingWriter* recording) {
+    std::uint64_t now_ns = 0;
+    auto [near_end, device_end] = transport::make_loopback();
+    const UniqueLink host_end = recorded(std::move(near_end), recording, [&now_ns] { return now_ns; });
     Expected<LocalDisplay> local = make_local_display(options, display, device_end.get());
     if (!local) return tl::unexpected(local.error());
     sim::Simulator& simulator = local->simulator;
-    host::Session session(host_end.get(), display, session_options(true, display, frame));
+    host::Session session(host_end.get(), display, session_options(false, display, frame));
 
-    std::uint64_t now_ns = 0;
     bool submitted = false;
     while (session.statistics().frames_presented == 0) {
         const Status host_moved = session.poll(now_ns);
@@ -107,14 +110,36 @@ Expected<Delivery> send_over(Link link, const DeliveryOptions& options, const Di
 
 }  // namespace
 
-host::SessionOptions session_options(bool two_way, const DisplayDescription& display,
+host::SessionOptions session_options(bool distant, const DisplayDescription& display,
                                      std::span<const std::byte> frame) {
     host::SessionOptions options;
     // A slow display shows a frame a cycle after it came.
     options.present_timeout_ns = std::max(options.present_timeout_ns, static_cast<std::int64_t>(2 * cycle_ns(display)));
-    const std::uint32_t number = two_way ? std::random_device()() : wire::crc32c(frame);
+    const std::uint32_t number = distant ? std::random_device()() : wire::crc32c(frame);
     options.session = static_cast<std::uint16_t>(number % 0xffff + 1);
     return options;
+}
+
+Expected<std::optional<sim::RecordingWriter>> make_recording(const DeliveryOptions& options,
+                                                             const DisplayFile& display) {
+    if (options.record.empty()) return std::optional<sim::RecordingWriter>();
+    return sim::RecordingWriter::create(options.record, display);
+}
+
+UniqueLink recorded(UniqueLink link, sim::RecordingWriter* recording, std::function<std::uint64_t()> now_ns) {
+    if (recording == nullptr) return link;
+    return sim::record_link(std::move(link), sim::LinkEnd::Host, *recording, std::move(now_ns));
+}
+
+Expected<void> finish_recording(const DeliveryOptions& options, sim::RecordingWriter* recording) {
+    if (recording == nullptr) return {};
+    if (const auto kept = recording->commit(); !kept) return kept;
+    const std::uint64_t frames = recording->frames();
+    if (!options.json) {
+        fmt::print("recorded: {} frame{}, {:.3f} s in {}\n", thousands(frames), frames == 1 ? "" : "s",
+                   static_cast<double>(recording->duration_ns()) * 1e-9, options.record);
+    }
+    return {};
 }
 
 Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const DisplayDescription& display,
@@ -174,7 +199,7 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
         return fail("--hold keeps a display at the other end of a tcp link lit; use it with --to tcp:HOST:PORT");
     }
     std::error_code missing;
-    for (const std::string& out : {options.png, address.path}) {
+    for (const std::string& out : {options.png, options.record, address.path}) {
         if (!out.empty() && !input.empty() && std::filesystem::equivalent(out, input, missing)) {
             return fail(out + " is the input itself; choose another name for the output");
         }
@@ -227,20 +252,23 @@ Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std:
 
 Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Address& address,
                            const DisplayDescription& display, std::span<const std::byte> frame, std::size_t pixels,
-                           io::AtomicFile* png) {
+                           io::AtomicFile* png, sim::RecordingWriter* recording) {
     switch (address.kind) {
-        case transport::AddressKind::Loopback: return show_in_process(options, display, frame, pixels, png);
+        case transport::AddressKind::Loopback: return show_in_process(options, display, frame, pixels, png, recording);
         case transport::AddressKind::Tcp: {
             Expected<UniqueLink> link = transport::connect_tcp(address.host, address.port);
             if (!link) return tl::unexpected(link.error());
-            return send_over(link->get(), options, display, frame);
+            const UniqueLink seen = recorded(std::move(*link), recording, clock_ns);
+            return send_over(seen.get(), options, display, frame);
         }
         case transport::AddressKind::File: {
             Expected<UniqueLink> link = transport::open_file_writer(address.path);
             if (!link) return tl::unexpected(link.error());
-            Expected<Delivery> delivery = send_over(link->get(), options, display, frame);
+            const Link file = link->get();
+            const UniqueLink seen = recorded(std::move(*link), recording, [] { return std::uint64_t{0}; });
+            Expected<Delivery> delivery = send_over(seen.get(), options, display, frame);
             if (!delivery) return delivery;
-            if (const auto kept = transport::commit_file(link->get()); !kept) return tl::unexpected(kept.error());
+            if (const auto kept = transport::commit_file(file); !kept) return tl::unexpected(kept.error());
             return delivery;
         }
     }

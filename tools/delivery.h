@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include "driver/display/description.h"
 #include "driver/display/toml.h"
 #include "driver/host/session.h"
+#include "sim/recording/writer.h"
 #include "sim/simulator.h"
 #include "sim/statistics.h"
 #include "tools/commands.h"
@@ -32,9 +34,19 @@ struct Delivery {
 /// How far the clock of a display in this program goes when nothing moves: shorter than anybody's patience.
 inline constexpr std::uint64_t kSimulatedStep_ns = 100'000'000;
 
-/// A display remembers the session before, so each gets another id; that of a recording follows from its first frame,
-/// so that equal frames give equal files.
-host::SessionOptions session_options(bool two_way, const DisplayDescription& display, std::span<const std::byte> frame);
+/// A distant display remembers the session before, so each gets another id; that of a file, and of a display that is
+/// switched on for it, follows from its first frame, so that equal frames give equal packets.
+host::SessionOptions session_options(bool distant, const DisplayDescription& display, std::span<const std::byte> frame);
+
+/// Begins the file of --record. Nothing without the option.
+Expected<std::optional<sim::RecordingWriter>> make_recording(const DeliveryOptions& options,
+                                                             const DisplayFile& display);
+
+/// `link`, whose packets go into `recording` if there is one.
+UniqueLink recorded(UniqueLink link, sim::RecordingWriter* recording, std::function<std::uint64_t()> now_ns);
+
+/// "recorded: 3 frames in duck.xvr"; commits `recording` if there is one.
+Expected<void> finish_recording(const DeliveryOptions& options, sim::RecordingWriter* recording);
 
 /// A display in this program.
 struct LocalDisplay {
@@ -57,10 +69,11 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
                               const std::string& input);
 
 /// Sends `frame`, in which `pixels` are lit, and waits until the display shows it, or a link without a way back
-/// has taken it. `png`, on loopback: where a picture of the light goes; null for none.
+/// has taken it. `png`, on loopback: where a picture of the light goes; null for none. `recording`: where the packets
+/// go, too; null: nowhere.
 Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Address& address,
                            const DisplayDescription& display, std::span<const std::byte> frame, std::size_t pixels,
-                           io::AtomicFile* png);
+                           io::AtomicFile* png, sim::RecordingWriter* recording = nullptr);
 
 /// What a display in this program showed, as a JSON object; "null" of another one.
 std::string light_json(const std::optional<LightSeen>& light);

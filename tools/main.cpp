@@ -58,6 +58,7 @@ int main_program(int argc, char** argv) {
     AllOptions options;
     std::vector<Command> commands = mesh_commands(program, options);
     for (Command& command : display_commands(program, options)) commands.push_back(std::move(command));
+    for (Command& command : recording_commands(program, options)) commands.push_back(std::move(command));
     commands.push_back(bench_command(program, options));
 
     const std::vector<std::string> names = command_names(commands);
@@ -107,7 +108,7 @@ int main_program(int argc, char** argv) {
         complain("standard output could not be written; files that were asked for are whole");
         return kFailure;
     }
-    return 0;
+    return options.exit_status;
 }
 
 /// Standard streams that the caller closed become ones that fail, so that no file or socket gets their numbers.

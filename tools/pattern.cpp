@@ -144,7 +144,8 @@ std::string heading_json(const DeliveryOptions& options, const DisplayDescriptio
 }
 
 Expected<void> show_still(const DeliveryOptions& options, const transport::Address& address,
-                          const DisplayDescription& display, const host::PatternInfo& info, io::AtomicFile* png) {
+                          const DisplayDescription& display, const host::PatternInfo& info, io::AtomicFile* png,
+                          sim::RecordingWriter* recording) {
     std::vector<std::byte> frame(frame_bytes(display));
     const host::PatternLight lit = host::paint_pattern(display, info.pattern, 0, frame);
     const std::uint32_t slices = thin_out(display, slice_step(options, address, display, info, lit), frame);
@@ -154,7 +155,7 @@ Expected<void> show_still(const DeliveryOptions& options, const transport::Addre
         std::fflush(stdout);  // To be read while --hold waits.
     }
     const std::uint64_t most_flashes = std::min(lit.pixels, slices * lit.most_in_slice);
-    const Expected<Delivery> delivery = deliver(options, address, display, frame, most_flashes, png);
+    const Expected<Delivery> delivery = deliver(options, address, display, frame, most_flashes, png, recording);
     if (!delivery) return tl::unexpected(delivery.error());
     const std::uint64_t slice_pixels = frame_pixels(display) / display.slices;
     if (options.json) {
@@ -163,19 +164,19 @@ Expected<void> show_still(const DeliveryOptions& options, const transport::Addre
             "\"slices_shown\": {}, \"light\": {}}}\n",
             heading_json(options, display, info), lit.pixels, lit.most_in_slice, slice_pixels, slices,
             light_json(delivery->light));
-        return {};
+        return finish_recording(options, recording);
     }
     fmt::print("{}: {} pixels lit, at most {} of the {} of a slice\n", is_here(address) ? "pattern" : "sent",
                thousands(lit.pixels), thousands(lit.most_in_slice), thousands(slice_pixels));
     if (!is_here(address)) fmt::print("{}\n", gone_to(address));
     print_thinned(display, slices);
     print_picture(options, delivery->light);
-    return {};
+    return finish_recording(options, recording);
 }
 
 Expected<void> show_moving(const DeliveryOptions& options, const transport::Address& address,
                            const DisplayDescription& display, const host::PatternInfo& info, double seconds,
-                           io::AtomicFile* png) {
+                           io::AtomicFile* png, sim::RecordingWriter* recording) {
     const std::uint64_t frames = host::pattern_frames(display, info.pattern);
     if (!options.json) {
         fmt::print("{} on {}: {}; {} frames, once through takes {}\n", info.name, display.name.view(), info.summary,
@@ -197,7 +198,8 @@ Expected<void> show_moving(const DeliveryOptions& options, const transport::Addr
         if (done + 1.5 * one > 1.0) progress.reset();  // Its last frame: --hold, or the picture, follows.
         return true;
     };
-    const Expected<StreamDelivery> delivery = deliver_stream(options, address, display, source, seconds, png);
+    const Expected<StreamDelivery> delivery =
+        deliver_stream(options, address, display, source, seconds, png, recording);
     progress.reset();
     if (!delivery) return tl::unexpected(delivery.error());
     if (options.json) {
@@ -209,6 +211,7 @@ Expected<void> show_moving(const DeliveryOptions& options, const transport::Addr
         print_thinned(display, slices);
         print_picture(options, delivery->light);
     }
+    if (const auto kept = finish_recording(options, recording); !kept) return kept;
     return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();
 }
 
@@ -243,8 +246,12 @@ Expected<void> pattern(const PatternOptions& asked) {
         png = std::move(*file);
     }
     io::AtomicFile* const picture = png ? &*png : nullptr;
-    if (info->moves) return show_moving(options.delivery, *address, *display, *info, options.seconds, picture);
-    return show_still(options.delivery, *address, *display, *info, picture);
+    auto recording = make_recording(options.delivery, *display);
+    if (!recording) return tl::unexpected(recording.error());
+    sim::RecordingWriter* const recorder = *recording ? &**recording : nullptr;
+    if (info->moves)
+        return show_moving(options.delivery, *address, *display, *info, options.seconds, picture, recorder);
+    return show_still(options.delivery, *address, *display, *info, picture, recorder);
 }
 
 }  // namespace xorvox::tools

@@ -70,6 +70,7 @@ Turning turning_of(const PlayOptions& options, const host::Timeline& timeline) {
 /// How long to play: as told; else as long as everything lasts; 0: until interrupted.
 Expected<double> choose_seconds(const PlayOptions& options, const host::Timeline& timeline, const Stage& stage) {
     if (options.seconds) return *options.seconds;
+    if (options.frames > 0) return 0.0;
     const double content = stage.content->duration_seconds();
     const double keys = timeline.moves() ? timeline.duration_seconds() : 0.0;
     const bool forever = timeline.loop || (options.spin_rpm && content == 0.0 && keys == 0.0);
@@ -100,6 +101,7 @@ Expected<void> play(const PlayOptions& options) {
     const glm::dvec3 middle = (room.lower + room.upper) / 2.0;
     std::optional<Error> broken;
     const FrameSource source = [&](const FrameMoment& moment, std::span<std::byte> frame) {
+        if (options.frames > 0 && moment.number >= options.frames) return false;
         glm::dmat4 pose = host::pose_at(*timeline, moment.seconds, middle);
         if (options.spin_rpm) {
             const double angle = glm::radians(moment.seconds * *options.spin_rpm * 6.0);
@@ -114,7 +116,7 @@ Expected<void> play(const PlayOptions& options) {
     };
     const DeliveryOptions& to = options.stage.delivery;
     const Expected<StreamDelivery> delivery =
-        deliver_stream(to, stage.address, stage.display, source, *seconds, stage.png ? &*stage.png : nullptr);
+        deliver_stream(to, stage.address, stage.display, source, *seconds, stage.picture(), stage.recorder());
     if (broken) return tl::unexpected(*broken);
     if (!delivery) return tl::unexpected(delivery.error());
     const std::size_t voxels = stage.maker->volume().count();
@@ -128,6 +130,7 @@ Expected<void> play(const PlayOptions& options) {
         print_stream(*delivery);
         print_light(options.stage, stage, delivery->light);
     }
+    if (const auto kept = finish_recording(to, stage.recorder()); !kept) return kept;
     return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();
 }
 

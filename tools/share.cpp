@@ -158,6 +158,9 @@ Expected<void> share(const ShareOptions& options) {
         if (!file) return tl::unexpected(file.error());
         png = std::move(*file);
     }
+    auto recording = make_recording(to, *display);
+    if (!recording) return tl::unexpected(recording.error());
+    sim::RecordingWriter* const recorder = *recording ? &**recording : nullptr;
     stop_on_signals();
     host::Framebuffer frames(frame_bytes(*display));
     const auto server = host::FrameShare::listen(*display, options.socket, frames);
@@ -168,10 +171,11 @@ Expected<void> share(const ShareOptions& options) {
     };
     const auto delivery = [&] {
         const Serving serving(**server);
-        return deliver_stream(to, *address, *display, source, options.seconds, png ? &*png : nullptr);
+        return deliver_stream(to, *address, *display, source, options.seconds, png ? &*png : nullptr, recorder);
     }();
     if (!delivery) return tl::unexpected(delivery.error());
     report(options, *display, (*server)->statistics(), latest, *delivery);
+    if (const auto kept = finish_recording(to, recorder); !kept) return kept;
     return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();
 }
 

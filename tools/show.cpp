@@ -32,13 +32,13 @@ Expected<void> show_still(const StageOptions& options) {
     }
     const DeliveryOptions& to = options.delivery;
     const Expected<Delivery> delivery =
-        deliver(to, stage.address, stage.display, frame, voxels, stage.png ? &*stage.png : nullptr);
+        deliver(to, stage.address, stage.display, frame, voxels, stage.picture(), stage.recorder());
     if (!delivery) return tl::unexpected(delivery.error());
     if (to.json) {
         fmt::print("{{{}, \"bytes_raw\": {}, \"bytes_sent\": {}, \"two_way\": {}, {}}}\n",
                    stage_json(options, stage, voxels), delivery->session.bytes_raw, delivery->session.bytes_sent,
                    stage.address.kind != transport::AddressKind::File, picture_json(to, delivery->light));
-        return {};
+        return finish_recording(to, stage.recorder());
     }
     fmt::print("{}: {} of {} samples are inside\n", stage.display.name.view(), thousands(voxels),
                thousands(frame_pixels(stage.display)));
@@ -48,7 +48,7 @@ Expected<void> show_still(const StageOptions& options) {
     if (voxels > 0 && delivery->light && delivery->light->statistics.pixels_lit == 0) {
         warn("all " + thousands(voxels) + " samples inside are dark: --color or --brightness makes them black");
     }
-    return {};
+    return finish_recording(to, stage.recorder());
 }
 
 }  // namespace

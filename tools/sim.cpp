@@ -1,5 +1,6 @@
 // sim: a display in a program of its own, for clients over tcp. One at a time; the picture outlives its client.
 #include <cstdio>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "driver/display/toml.h"
 #include "driver/host/faults.h"
 #include "sim/optics.h"
+#include "sim/recording/record_link.h"
 #include "sim/simulator.h"
 #include "sim/statistics.h"
 #include "tools/clock.h"
@@ -105,12 +107,21 @@ Expected<void> sim(const SimOptions& options) {
     actual.port = listener->port();
     events.listening(transport::to_string(actual));
 
+    std::optional<sim::RecordingWriter> recording;
+    if (!options.record.empty()) {
+        Expected<sim::RecordingWriter> writer = sim::RecordingWriter::create(options.record, *display);
+        if (!writer) return tl::unexpected(writer.error());
+        recording = std::move(*writer);
+    }
     UniqueLink client;
     std::uint64_t heard_ns = 0;
     while (!asked_to_stop()) {
         const std::uint64_t now_ns = clock_ns();
         if (!client && listener->accept(client) == Status::Ok) {
             events.client(true);
+            if (recording) {
+                client = sim::record_link(std::move(client), sim::LinkEnd::Device, *recording, clock_ns);
+            }
             simulator->set_link(client.get());
             heard_ns = now_ns;
         }
@@ -132,7 +143,9 @@ Expected<void> sim(const SimOptions& options) {
             (void)listener->wait(idle_ns);
         }
     }
-    return {};
+    simulator->set_link(Link{});
+    client.reset();
+    return recording ? recording->commit() : Expected<void>();
 }
 
 }  // namespace xorvox::tools

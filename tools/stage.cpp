@@ -141,6 +141,9 @@ Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning 
         if (!file) return tl::unexpected(file.error());
         stage->png = std::move(*file);
     }
+    auto recording = make_recording(to, stage->display);
+    if (!recording) return tl::unexpected(recording.error());
+    stage->recording = std::move(*recording);
     auto content = read_content(options, stage->display, turning);
     if (!content) return tl::unexpected(content.error());
     stage->content = std::move(*content);

@@ -23,12 +23,16 @@ struct Stage {
     std::unique_ptr<host::ColorField> color;
     std::unique_ptr<Content> content;
     std::unique_ptr<FrameMaker> maker;
-    std::optional<io::AtomicFile> png;  ///< Of --png.
+    std::optional<io::AtomicFile> png;              ///< Of --png.
+    std::optional<sim::RecordingWriter> recording;  ///< Of --record.
+
+    io::AtomicFile* picture() { return png ? &*png : nullptr; }
+    sim::RecordingWriter* recorder() { return recording ? &*recording : nullptr; }
 };
 
 /// Sets it, for something that turns like `turning`. What is wrong with the options is found before any file is made,
-/// and the picture's is made before the model is read: only what the model itself says against them is found later, and
-/// then no picture is left.
+/// and those of --png and --record are made before the model is read: only what the model itself says against them is
+/// found later, and then none is left.
 Expected<std::unique_ptr<Stage>> set_stage(const StageOptions& options, Turning turning);
 
 /// What a person wants to know of the light: how far it was dimmed, and of a display in this program what was lit.

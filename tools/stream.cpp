@@ -66,15 +66,16 @@ private:
 };
 
 Expected<StreamDelivery> stream_in_process(const DeliveryOptions& options, const DisplayDescription& display,
-                                           Feeder& feeder, io::AtomicFile* png) {
-    auto [host_end, device_end] = transport::make_loopback();
+                                           Feeder& feeder, io::AtomicFile* png, sim::RecordingWriter* recording) {
+    std::uint64_t now_ns = 0;
+    auto [near_end, device_end] = transport::make_loopback();
+    const UniqueLink host_end = recorded(std::move(near_end), recording, [&now_ns] { return now_ns; });
     Expected<LocalDisplay> local = make_local_display(options, display, device_end.get());
     if (!local) return tl::unexpected(local.error());
     sim::Simulator& simulator = local->simulator;
-    host::Session session(host_end.get(), display, session_options(true, display, feeder.first()));
+    host::Session session(host_end.get(), display, session_options(false, display, feeder.first()));
     host::FrameStream stream(session, display);
     stop_on_signals();
-    std::uint64_t now_ns = 0;
     while (!asked_to_stop() && (!feeder.done() || !stream.idle())) {
         feeder.feed(stream);
         const Status host_moved = stream.poll(now_ns);
@@ -124,21 +125,24 @@ Expected<StreamDelivery> stream_over(Link link, const DeliveryOptions& options, 
 
 Expected<StreamDelivery> deliver_stream(const DeliveryOptions& options, const transport::Address& address,
                                         const DisplayDescription& display, const FrameSource& source, double seconds,
-                                        io::AtomicFile* png) {
+                                        io::AtomicFile* png, sim::RecordingWriter* recording) {
     Feeder feeder(source, display, seconds, address.kind != transport::AddressKind::File);
     switch (address.kind) {
-        case transport::AddressKind::Loopback: return stream_in_process(options, display, feeder, png);
+        case transport::AddressKind::Loopback: return stream_in_process(options, display, feeder, png, recording);
         case transport::AddressKind::Tcp: {
             Expected<UniqueLink> link = transport::connect_tcp(address.host, address.port);
             if (!link) return tl::unexpected(link.error());
-            return stream_over(link->get(), options, display, feeder);
+            const UniqueLink seen = recorded(std::move(*link), recording, clock_ns);
+            return stream_over(seen.get(), options, display, feeder);
         }
         case transport::AddressKind::File: {
             Expected<UniqueLink> link = transport::open_file_writer(address.path);
             if (!link) return tl::unexpected(link.error());
-            Expected<StreamDelivery> delivery = stream_over(link->get(), options, display, feeder);
+            const Link file = link->get();
+            const UniqueLink seen = recorded(std::move(*link), recording, [] { return std::uint64_t{0}; });
+            Expected<StreamDelivery> delivery = stream_over(seen.get(), options, display, feeder);
             if (!delivery || delivery->broken) return delivery;
-            if (const auto kept = transport::commit_file(link->get()); !kept) return tl::unexpected(kept.error());
+            if (const auto kept = transport::commit_file(file); !kept) return tl::unexpected(kept.error());
             return delivery;
         }
     }

@@ -34,10 +34,11 @@ struct StreamDelivery {
 
 /// Sends frames of `source` for `seconds` (0: until there are no more), one for each cycle of the display as far as
 /// they can be made and sent, and waits until the last one is shown. A signal ends it in good order. `png`, on
-/// loopback: where a picture of the last frame goes; null for none. An Error: nothing was sent.
+/// loopback: where a picture of the last frame goes; null for none. `recording`: where the packets go, too; null:
+/// nowhere. An Error: nothing was sent.
 Expected<StreamDelivery> deliver_stream(const DeliveryOptions& options, const transport::Address& address,
                                         const DisplayDescription& display, const FrameSource& source, double seconds,
-                                        io::AtomicFile* png);
+                                        io::AtomicFile* png, sim::RecordingWriter* recording = nullptr);
 
 /// "600 volumes shown at 20 a second …": what a person wants to know of it; and the members of a JSON object.
 void print_stream(const StreamDelivery& delivery);

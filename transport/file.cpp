@@ -9,9 +9,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "transport/hosted.h"
+#include "transport/new_file.h"
 
 namespace xorvox::transport {
 namespace {
@@ -26,68 +26,40 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 class FileWriter {
 public:
-    /// Writes into `file`, which stands at `temporary` until it moves to `target`. Messages call it `path`.
-    FileWriter(File file, std::string path, std::string target, std::string temporary)
-        : file_(std::move(file)),
-          path_(std::move(path)),
-          target_(std::move(target)),
-          temporary_(std::move(temporary)) {}
-    FileWriter(const FileWriter&) = delete;
-    FileWriter& operator=(const FileWriter&) = delete;
-    ~FileWriter() {
-        if (committed_) return;
-        file_.reset();
-        std::remove(temporary_.c_str());
-    }
+    explicit FileWriter(NewFile file) : file_(std::move(file)) { file_.write(std::as_bytes(std::span(kHead))); }
 
     LinkInfo info() const { return {"file", kMaxPacketBytes, false}; }
 
     Status send(std::span<const std::byte> packet) {
         if (packet.empty() || packet.size() > kMaxFramedBytes) return Status::OutOfRange;
-        if (!file_ || error_ != 0) return Status::Closed;
+        if (closed()) return Status::Closed;
         std::array<std::byte, kFrameHeaderBytes> header{};
         const Status status = encode_frame_header(packet.size(), header);
         if (status != Status::Ok) return status;
-        write(header);
-        write(packet);
-        return error_ == 0 ? Status::Ok : Status::Closed;
+        file_.write(header);
+        file_.write(packet);
+        return closed() ? Status::Closed : Status::Ok;
     }
 
     Status receive(std::span<std::byte>, std::size_t&) { return Status::Unsupported; }
 
     Status flush() {
-        if (!file_) return Status::Closed;
-        if (error_ == 0 && std::fflush(file_.get()) != 0) error_ = errno;
-        return error_ == 0 ? Status::Ok : Status::Closed;
+        if (closed()) return Status::Closed;
+        file_.flush();
+        return closed() ? Status::Closed : Status::Ok;
     }
 
     Status wait(std::uint32_t events, std::int64_t) {
-        if (!file_ || error_ != 0) return Status::Closed;
+        if (closed()) return Status::Closed;
         return (events & kLinkWritable) != 0 ? Status::Ok : Status::Timeout;
     }
 
-    void write(std::span<const std::byte> bytes) {
-        if (error_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) error_ = errno;
-    }
-
-    Expected<void> commit() {
-        if (committed_) return {};
-        if (flush() == Status::Ok && ::fsync(::fileno(file_.get())) != 0) error_ = errno;
-        if (error_ == 0 && std::fclose(file_.release()) != 0) error_ = errno;
-        if (error_ == 0 && std::rename(temporary_.c_str(), target_.c_str()) != 0) error_ = errno;
-        if (error_ != 0)
-            return fail(fmt::format("{}: cannot be written: {}; nothing was kept", path_, describe(error_)));
-        committed_ = true;
-        return {};
-    }
+    Expected<void> commit() { return file_.commit(); }
 
 private:
-    File file_;
-    std::string path_;
-    std::string target_;
-    std::string temporary_;
-    int error_ = 0;
-    bool committed_ = false;
+    bool closed() const { return !file_.is_open() || file_.failed(); }
+
+    NewFile file_;
 };
 
 class FileReader {
@@ -119,41 +91,12 @@ private:
     FramedInput input_;
 };
 
-/// Where a recording goes: `path`, or what it links to. Renaming onto a folder, a device or a pipe would fail or
-/// replace it. The rules of voxelizer/io/atomic_file.h, which transport does not include.
-Expected<std::string> resolve(const std::string& path) {
-    using std::filesystem::file_type;
-    std::error_code ignored;
-    const file_type type = std::filesystem::status(path, ignored).type();
-    if (type == file_type::directory) return fail(fmt::format("{}: is a directory; name a file in it", path));
-    if (type != file_type::regular && type != file_type::not_found && type != file_type::none) {
-        return fail(fmt::format("{}: is a device or a pipe, which cannot be replaced as a whole; name a file", path));
-    }
-    if (std::filesystem::symlink_status(path, ignored).type() != file_type::symlink) return path;
-    std::error_code error;
-    std::string target = std::filesystem::canonical(path, error).string();
-    if (error) return fail(fmt::format("{}: is a link to nothing; remove it or choose another name", path));
-    return target;
-}
-
 }  // namespace
 
 Expected<UniqueLink> open_file_writer(const std::string& path) {
-    auto target = resolve(path);
-    if (!target) return tl::unexpected(std::move(target.error()));
-    const std::filesystem::path folder = std::filesystem::path(*target).parent_path();
-    for (unsigned attempt = 0;; ++attempt) {
-        std::string temporary = (folder / fmt::format(".xorvox-{}-{}.tmp", ::getpid(), attempt)).string();
-        File file(std::fopen(temporary.c_str(), "wbxe"));  // x: O_EXCL, no file that is there already; e: O_CLOEXEC.
-        if (!file && errno == EEXIST) continue;
-        if (!file) {
-            return fail(
-                fmt::format("{}: cannot be created: {}; its folder must exist and be writable", path, describe(errno)));
-        }
-        auto writer = std::make_unique<FileWriter>(std::move(file), path, std::move(*target), std::move(temporary));
-        writer->write(std::as_bytes(std::span(kHead)));
-        return make_unique_link(writer.release());
-    }
+    Expected<NewFile> file = NewFile::create(path);
+    if (!file) return tl::unexpected(std::move(file.error()));
+    return make_unique_link(new FileWriter(std::move(*file)));
 }
 
 Expected<void> commit_file(Link writer) {

@@ -393,7 +393,9 @@ Expected<DisplayFile> parse_display(std::string_view toml, std::string_view sour
     if (!root) return refuse(root.error());
     Reader reader(*root);
     if (const auto mistakes = reader.read(); !mistakes.empty()) return refuse(mistakes.front());
-    return reader.take();
+    DisplayFile display = reader.take();
+    display.text = toml;
+    return display;
 }
 
 }  // namespace xorvox

@@ -26,6 +26,7 @@ const std::vector<Preset>& presets();
 /// A description with what else its file says. Owns what `points` and `plane_heights_mm` borrow, together with every
 /// copy of it: a DisplayDescription that is copied from it must not outlive them all.
 struct DisplayFile : DisplayDescription {
+    std::string text;                  ///< The file itself, for recordings.
     std::string summary;               ///< One line; may be empty.
     std::vector<std::string> assumed;  ///< Keys whose values have no source: "slices", "panel.rows", "scan.latch_ns".
 

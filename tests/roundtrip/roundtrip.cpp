@@ -126,7 +126,7 @@ TEST_CASE("what lights up in one colour equals what was voxelized", "[roundtrip]
 }
 
 TEST_CASE("a display with any fault does not show what was voxelized, but for packets that are lost and sent again",
-          "[roundtrip][misbuild]") {
+          "[roundtrip][faults]") {
     std::vector<DisplayFile> displays = odd_displays();
     std::ranges::move(small_presets(), std::back_inserter(displays));
     for (const DisplayFile& display : displays) {

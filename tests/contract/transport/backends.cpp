@@ -15,6 +15,7 @@
 #include "transport/file.h"
 #include "transport/link_template.cpp"
 #include "transport/loopback.h"
+#include "transport/tap.h"
 #include "transport/tcp.h"
 
 namespace xorvox::transport {
@@ -85,6 +86,13 @@ Ends open_faultless() {
     return ends;
 }
 
+Ends open_tapped() {
+    Ends ends = open_loopback();
+    ends.near = with_tap(std::move(ends.near), [](Passing, std::span<const std::byte>) {});
+    ends.far = with_tap(std::move(ends.far), [](Passing, std::span<const std::byte>) {});
+    return ends;
+}
+
 }  // namespace
 
 const std::vector<Backend>& backends() {
@@ -94,6 +102,7 @@ const std::vector<Backend>& backends() {
         {"file", open_file},
         {"template", open_template},
         {"faults, none of them", open_faultless, true},
+        {"tap", open_tapped, true},
     };
     return all;
 }

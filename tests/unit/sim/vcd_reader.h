@@ -43,6 +43,8 @@ inline Vcd read_vcd(const std::string& text) {
         return all;
     };
     std::map<std::string, std::string> names;
+    // Others put the levels of the beginning behind the first time, without $dumpvars.
+    const auto is_first = [&] { return vcd.end == vcd.begin && !vcd.initial.contains(names.at(word.substr(1))); };
     while (next() != "$enddefinitions") {
         if (word == "$timescale") {
             vcd.timescale = until_end();
@@ -54,7 +56,7 @@ inline Vcd read_vcd(const std::string& text) {
             const std::string code = next();
             vcd.wires.push_back(until_end());
             if (!names.emplace(code, vcd.wires.back()).second) throw std::runtime_error("twice: " + code);
-        } else if (word == "$version" || word == "$upscope") {
+        } else if (word == "$version" || word == "$upscope" || word == "$date" || word == "$comment") {
             (void)until_end();
         } else {
             throw std::runtime_error(word);
@@ -77,8 +79,11 @@ inline Vcd read_vcd(const std::string& text) {
         } else if (word[0] == '0' || word[0] == '1') {
             const auto name = names.find(word.substr(1));
             if (name == names.end() || !begun) throw std::runtime_error(word);
-            if (dumping) vcd.initial[name->second] = word[0] == '1';
-            if (!dumping) vcd.changes.push_back({vcd.end, name->second, word[0] == '1'});
+            if (dumping || is_first()) {
+                vcd.initial[name->second] = word[0] == '1';
+            } else {
+                vcd.changes.push_back({vcd.end, name->second, word[0] == '1'});
+            }
         } else {
             throw std::runtime_error(word);
         }
