@@ -63,9 +63,10 @@ std::optional<double> read(TomlTable& table, std::string_view key, const Range& 
     return value;
 }
 
-void read_rotor(TomlTable& top, RotorConditions& rotor, Mistakes& mistakes) {
+void read_rotor(TomlTable& top, std::optional<RotorConditions>& conditions, Mistakes& mistakes) {
     const TomlNode* node = top.find("rotor");
     if (node == nullptr) return;
+    RotorConditions& rotor = conditions.emplace();
     if (node->type != TomlNode::Type::Table) return top.wrong(*node, "rotor", "a [rotor] table");
     TomlTable table(*node, "rotor.", mistakes);
     std::vector<Key> keys;
@@ -121,11 +122,12 @@ Expected<Conditions> parse_conditions(std::string_view toml, std::string_view so
     TomlTable top(*root, "", mistakes);
     constexpr Key kKeys[] = {{"seed"}, {"rotor"}, {"fault"}};
     top.refuse_unknown(kKeys);
-    if (const auto seed = read(top, "seed", kSeed)) {
-        conditions.rotor.seed = conditions.faults.seed = static_cast<std::uint64_t>(*seed);
-    }
     read_rotor(top, conditions.rotor, mistakes);
     read_faults(top, conditions.faults, mistakes);
+    if (const auto seed = read(top, "seed", kSeed)) {
+        conditions.faults.seed = static_cast<std::uint64_t>(*seed);
+        if (conditions.rotor) conditions.rotor->seed = conditions.faults.seed;
+    }
     if (mistakes.list.empty()) return conditions;
     const auto first = std::ranges::min_element(mistakes.list, {}, &DisplayMistake::line);
     return fail(fmt::format("{}: line {}: {}", source, first->line, first->message));

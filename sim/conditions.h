@@ -14,6 +14,7 @@
 // No global state: any thread.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,7 +25,7 @@
 namespace xorvox::sim {
 
 struct Conditions {
-    RotorConditions rotor;
+    std::optional<RotorConditions> rotor;  ///< None: the file has no [rotor].
     Faults faults;
 };
 

@@ -90,9 +90,12 @@ void TimingWatch::look(const State& state, std::uint64_t now_ns) {
         if ((state.faults & ~state_.faults & bit) != 0) ++timing_.faults[fault];
     }
     if (state.cycle != state_.cycle) {
-        boundary_before_ns_ = boundary_ns_;
-        boundary_ns_ = now_ns;
         lit_in_cycle_ = torn_ = false;
+        // Where the rotation was just found, a cycle began without a boundary.
+        if (state_.locked) {
+            boundary_before_ns_ = boundary_ns_;
+            boundary_ns_ = now_ns;
+        }
     }
     const bool is_new = state.has_frame && (!state_.has_frame || state.frame != state_.frame);
     state_ = state;

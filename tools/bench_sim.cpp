@@ -75,7 +75,7 @@ public:
         Row row;
         const std::uint64_t to_ns = now_ns_ + shutter_ns;
         sim::Exposure exposure(
-            simulator_->display(), simulator_->built(), {},
+            simulator_->display(), simulator_->built(),
             [this](std::uint64_t time_ns) { return simulator_->cycles_at(time_ns); }, now_ns_, to_ns);
         simulator_->watch([&](const sim::Strobe& strobe) {
             ++row.strobes;

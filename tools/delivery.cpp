@@ -155,6 +155,7 @@ Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const 
     Expected<sim::Conditions> conditions = read_conditions(options.simulation);
     if (!conditions) return tl::unexpected(conditions.error());
     wanted.faults = std::move(conditions->faults);
+    wanted.rotor = conditions->rotor;
     Expected<sim::Simulator> simulator = sim::Simulator::make(display, link, wanted);
     if (!simulator) return tl::unexpected(simulator.error());
     return LocalDisplay{std::move(built), std::move(*simulator)};

@@ -9,7 +9,7 @@ xorvox="${1:-build/release/bin/xorvox}"
 folder="${2:-docs/images/faults}"
 kind="${3:-[a-z-]+}"
 [[ -x $xorvox ]] || { echo "there is no $xorvox: build it, or give its path" >&2; exit 2; }
-commands=$(grep -oE "^    xorvox pattern .* --fault $kind[: ].* --png $kind\.png$" docs/bring-up.md) ||
+commands=$(grep -oE "^    xorvox pattern .* --fault ($kind)[: ].* --png \\1\.png$" docs/bring-up.md) ||
     { echo "docs/bring-up.md has no command for the fault $kind" >&2; exit 2; }
 mkdir -p "$folder"
 while read -r _ _ display pattern arguments; do

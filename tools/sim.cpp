@@ -96,6 +96,7 @@ Expected<void> sim(const SimOptions& options) {
     Expected<sim::Conditions> conditions = read_conditions(options.simulation);
     if (!conditions) return tl::unexpected(conditions.error());
     simulated.faults = std::move(conditions->faults);
+    simulated.rotor = conditions->rotor;
     Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{}, simulated);
     if (!simulator) return tl::unexpected(simulator.error());
     Expected<transport::TcpListener> listener = transport::TcpListener::listen(address->port, address->host);

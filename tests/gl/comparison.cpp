@@ -45,7 +45,7 @@ std::vector<std::byte> ball(const DisplayDescription& display, double radius_mm,
 
 sim::Exposure exposed(const DisplayDescription& display, std::span<const std::byte> lit, const sim::Faults& faults) {
     const TimeAt time_at = perfect_time(display);
-    sim::Exposure exposure(display, display, faults, {}, 0, time_at(device::kCycle));
+    sim::Exposure exposure(display, display, {}, 0, time_at(device::kCycle), faults);
     const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) { exposure.add(strobe); });
     scan_page(display, lit, 1, *scan, time_at);
     return exposure;

@@ -26,7 +26,7 @@ Status Hub75Wires::shift(const SlicePlanes& planes, std::uint32_t group, std::ui
             for (std::uint32_t r = group; r < half; r += groups) {
                 const PlaneRow row = planes.row(p, lower * half + r, channel, plane);
                 for (std::uint32_t c = 0; c < columns; ++c, out += 2) {
-                    if (row[c]) *out |= lit;
+                    *out |= -LineMask{row[c]} & lit;  // No branch: bits of pictures cannot be foreseen.
                 }
             }
         }
@@ -41,7 +41,7 @@ Status Hub75Wires::latch(std::uint32_t group) {
 
 Status Hub75Wires::output_off() {
     const LineMask oe = line_bit(config_->pins.output_enable);
-    return lines_.set(oe, oe);
+    return lines_.set(oe | line_bit(config_->pins.latch), oe);  // A pulse of the latch may have been cut.
 }
 
 Status Hub75Wires::release_rows() {
@@ -64,9 +64,7 @@ Status Hub75Wires::write() {
 }
 
 Status Hub75Wires::pulse_latch() {
-    const LineMask latch = line_bit(config_->pins.latch);
-    const Status status = lines_.set(latch, latch);
-    return status == Status::Ok ? lines_.set(latch, 0) : status;
+    return device::pulse_latch(lines_, line_bit(config_->pins.latch), config_->scan.modulation.latch_ns);
 }
 
 Status Hub75Wires::address(std::uint32_t group) {

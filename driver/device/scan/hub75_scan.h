@@ -1,14 +1,14 @@
 // Hub75Scan: scans HUB75 panels out. pins.h draws which line is which, and where bits come to stand. In a slot, with
 // M shifts of the longest chain:
 //
-//               ◄─ fall ─►              ◄─ latch ─►  on
-//   data     ───────────────────────────────────────╳═══╳═══╳═  …  ╳═══╳────     2 · M elements of one write: data with
-//   clock    ───────────────────────────────────────┐ ┌─┐ ┌─┐   …    ┌──────     the clock low, the same with it high
-//                                                   └─┘ └─┘ └─  …  ──┘
-//   A … E    ─────────╳══════════════════════════════════════════════════        the row group
-//   latch    __________┌┐_________________________________________________
-//   OE       ──────────────────────┐                            ┌────────        low: lit; high before latch ends
-//                                  └────────────────────────────┘
+//             ◄ fall ►◄ latch_ns ►◄─────── on ───────►
+//   OE        ────────────────────┐                   ┌────   low: lit
+//                                 └───────────────────┘
+//   A … E     ════════╳═════════════════════════════════   the row group
+//   latch     ________┌────┐____________________________   what was shifted in, to the LEDs
+//   data      ────────────────────╳══╳══╳═ … ═╳══╳─────   the next slot's bits, each with the clock low
+//   clock     ────────────────────┐ ┌┐ ┌┐ … ┐ ┌────────   and the same with it high: one write of 2 · M
+//                                 └─┘└─┘└ …  └─┘           elements
 //
 // Blank: OE high; address 0, which rests on the other two steps; zeros through all chains, and latched.
 #pragma once

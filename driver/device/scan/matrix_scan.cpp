@@ -31,7 +31,8 @@ Status MatrixWires::shift(const SlicePlanes& planes, std::uint32_t group, std::u
 }
 
 Status MatrixWires::latch(std::uint32_t) {
-    return lines_.set(columns_, next_);
+    const Status status = lines_.set(columns_, next_);
+    return status == Status::Ok ? lines_.hold(config_->scan.modulation.latch_ns) : status;
 }
 
 }  // namespace xorvox::device

@@ -1,10 +1,10 @@
 // MatrixScan: scans LEDs out that stand between lines of row groups and lines of columns. pins.h says which is which.
 // In a slot nothing is shifted; the row itself is the strobe:
 //
-//                    ◄─ fall ─►      ◄─ latch ─►  on
-//   columns      ══════════════╳═════════════════════════════════╳═══
-//   row group    ──┐                            ┌───────────┐             high: selected, and lit
-//                  └────────────────────────────┘           └───────
+//             ◄ fall ►◄ latch_ns ►◄─────── on ───────►
+//   columns   ════════╳════════════════════════════════════
+//   row group                     ┌───────────────────┐      high: selected, and lit
+//             ────────────────────┘                   └────
 //
 // Blank: all row groups low, which is both output off and rows released; then all columns low.
 #pragma once

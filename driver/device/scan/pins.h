@@ -122,7 +122,7 @@ constexpr LineMask used_lines(const DisplayDescription& display, const ShiftRegi
 constexpr LineMask used_lines(const DisplayDescription& display, const MatrixPins& pins) {
     const std::uint64_t count = display.scan.row_groups + matrix_columns(display);
     LineMask used = 0;
-    for (std::uint64_t i = 0; count <= kMaxLines && i < count; ++i) used |= line_bit(pins.lines[i]);
+    for (std::size_t i = 0; count <= kMaxLines && i < count; ++i) used |= line_bit(pins.lines[i]);
     return used;
 }
 

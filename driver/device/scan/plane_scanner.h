@@ -13,7 +13,7 @@
 //
 // A slot in the drawing of modulation.h, in the order in which lines are asked:
 //
-//   hold(fall)  row lines, latch  hold(latch)  strobe(on)  write(the next slot's data)  hold(what is left of the slot)
+//   hold(fall)  row lines, latch for latch_ns  strobe(on)  write(the next slot's data)  hold(what is left of the slot)
 //
 // Lines that cannot strobe by themselves (LinesOperations::strobe is null) are lit for a part of the time in each step,
 // and data are shifted in after that: the light is right, but a slot takes on + shift instead of the longer of them.
@@ -62,11 +62,20 @@ struct Light {
     LineMask levels = 0;
 };
 
+/// A pulse on a latch, high for the first half of `latch_ns`; for the rest, what it latched settles.
+inline Status pulse_latch(Lines lines, LineMask latch, std::uint64_t latch_ns) {
+    Status status = lines.set(latch, latch);
+    if (status == Status::Ok) status = lines.hold(latch_ns / 2);
+    if (status == Status::Ok) status = lines.set(latch, 0);
+    return status == Status::Ok ? lines.hold(latch_ns - latch_ns / 2) : status;
+}
+
 /// Wires have
 ///   Config                               with a member `scan`
 ///   init(config, lines, levels)          `levels`: write_size words
 ///   shift(planes, group, plane)          the data of a slot on their way
-///   latch(group)                         the data that were shifted, and their row, to the LEDs, which are dark
+///   latch(group)                         the data that were shifted, and their row, to the LEDs, which are dark; takes
+///                                        latch_ns
 ///   light(group)                         what lights them
 ///   output_off() release_rows() clear_columns()    kBlankSteps
 template <class Wires>
@@ -190,7 +199,6 @@ private:
         Status status = lines_.join();
         if (status == Status::Ok) status = lines_.hold(modulation_.fall_ns);
         if (status == Status::Ok) status = wires_.latch(group);
-        if (status == Status::Ok) status = lines_.hold(modulation_config_.latch_ns);
         if (status != Status::Ok) return status;
         light_ = wires_.light(group);
         shifted_ = false;

@@ -1,5 +1,5 @@
 // ScanLoop: what a device's program does again and again: ScanControl says what to light, a scanner lights it slot by
-// slot, and ScanControl hears when it has done so.
+// slot, and ScanControl hears when it has finished, or was cut short: with the next order.
 //
 //   device.init(…); control.init(kControl, device, clock()); scanner.init(kScan, lines, buffer);
 //   ScanLoop loop(control, scanner);
@@ -34,13 +34,11 @@ public:
     /// answer. After that it tries to be dark until the lines obey, and nothing is lit before ScanControl has ordered
     /// dark. Where scan_done() is expected it will: a slice that failed is not reported as done.
     Status poll(std::uint64_t now_ns) {
-        if (scanner_->finished()) report(now_ns);
         const ScanOrder& order = control_->poll(now_ns);
         const bool is_new = order.number != shown_.number;
         if (is_new) {
-            report(now_ns);
+            if (shown_.lit() && !failed_) control_->scan_done(shown_, now_ns);
             shown_ = order;
-            reported_ = !order.lit();
         }
         if (failed_) {
             const Status status = dark_ ? Status::Ok : stop();
@@ -63,18 +61,11 @@ public:
     }
 
 private:
-    void report(std::uint64_t now_ns) {
-        if (reported_ || failed_) return;
-        control_->scan_done(shown_, now_ns);
-        reported_ = true;
-    }
-
     ScanControl* control_;
     Scanner* scanner_;
     ScanOrder shown_;
-    bool reported_ = true;  ///< Or nothing to report.
-    bool failed_ = false;   ///< Since it was last ordered dark.
-    bool dark_ = false;     ///< The lines obeyed the last blank, and nothing was begun since.
+    bool failed_ = false;  ///< Since it was last ordered dark.
+    bool dark_ = false;    ///< The lines obeyed the last blank, and nothing was begun since.
 };
 
 }  // namespace xorvox::device

@@ -31,14 +31,12 @@ Status ShiftRegisterWires::shift(const SlicePlanes& planes, std::uint32_t, std::
 }
 
 Status ShiftRegisterWires::latch(std::uint32_t) {
-    const LineMask latch = line_bit(config_->pins.latch);
-    const Status status = lines_.set(latch, latch);
-    return status == Status::Ok ? lines_.set(latch, 0) : status;
+    return pulse_latch(lines_, line_bit(config_->pins.latch), config_->scan.modulation.latch_ns);
 }
 
 Status ShiftRegisterWires::output_off() {
     const LineMask oe = line_bit(config_->pins.output_enable);
-    return lines_.set(oe, oe);
+    return lines_.set(oe | line_bit(config_->pins.latch), oe);  // A pulse of the latch may have been cut.
 }
 
 Status ShiftRegisterWires::clear() {

@@ -1,14 +1,13 @@
 // ShiftRegisterScan: scans LED cubes out whose columns and layers hang on one chain of 74HC595. pins.h draws where bits
-// come to stand. Each slot's data are the N bits of a plane of the layer, and L layer bits of which one is high:
+// come to stand. A slot has M bits: those of a plane of the layer, and one for each layer, of which one is high.
 //
-//               ◄─ fall ─►              ◄─ latch ─►  on
-//   SER      ───────────────────────────────────────╳═══╳═══╳═  …  ╳═══╳────     2 · (N + L) elements of one write:
-//   data SRCLK    ───────────────────────────────────────┐ ┌─┐ ┌─┐   …    ┌──────     with the clock low, the same with
-//   it
-//                                                   └─┘ └─┘ └─  …  ──┘           high
-//   RCLK     __________┌┐_________________________________________________
-//   OE       ──────────────────────┐                            ┌────────        low: the outputs are on
-//                                  └────────────────────────────┘
+//             ◄ fall ►◄ latch_ns ►◄─────── on ───────►
+//   OE        ────────────────────┐                   ┌────   low: lit
+//                                 └───────────────────┘
+//   RCLK      ________┌────┐____________________________   what was shifted in, to the LEDs
+//   SER       ────────────────────╳══╳══╳═ … ═╳══╳─────   the next slot's bits, each with the clock low
+//   SRCLK     ────────────────────┐ ┌┐ ┌┐ … ┐ ┌────────   and the same with it high: one write of 2 · M
+//                                 └─┘└─┘└ …  └─┘           elements
 //
 // Blank: OE high; zeros through the chain release the layers and clear the columns with one edge of RCLK, since they
 // share it; once more, for the bit that was lost. With OE high a 595's outputs float: what drives the layers needs pull

@@ -167,8 +167,8 @@ TEST_CASE("a HUB75 panel of 2 x 2 LEDs has these levels, nanosecond by nanosecon
         {100, "001 00000 010 111"},   // Column 1.
         {150, "101 00000 010 111"},   //
         {220, "111 00000 010 111"},   // Shifted at 200, and 20 for what was lit to fall: latched.
-        {220, "101 00000 010 111"},   //
-        {250, "100 00000 010 111"},   // 30 after the latch: lit,
+        {235, "101 00000 010 111"},   // A pulse of 15, and 15 to settle:
+        {250, "100 00000 010 111"},   // lit,
         {1200, "101 00000 010 111"},  // for 950.
     };
     REQUIRE(rig.bench->edges.size() == expected.size());
@@ -202,7 +202,7 @@ TEST_CASE("a cube of 2 x 1 x 2 LEDs has these levels, nanosecond by nanosecond")
         {20, "0011"}, {30, "1011"},  // Pixel 0 is lit.
         {40, "0011"}, {50, "1011"},  // Layer 1 is selected,
         {60, "0010"}, {70, "1010"},  // layer 0 is not.
-        {80, "1110"}, {80, "1010"},  // Latched.
+        {80, "1110"}, {82, "1010"},  // Latched.
         {85, "1000"}, {1080, "1010"},
     };
     // The first element sets nothing: data and clock are low already.

@@ -1,6 +1,11 @@
 #include "sim/faults.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,9 +14,11 @@
 
 #include "driver/display/toml.h"
 #include "sim/conditions.h"
+#include "sim/lossy_link.h"
 #include "sim/optics.h"
 #include "tests/catch.h"
 #include "tests/unit/sim/displays.h"
+#include "transport/loopback.h"
 
 namespace xorvox {
 namespace {
@@ -148,6 +155,43 @@ TEST_CASE("a tilted panel's upper edge stands out, its middle where it was") {
     check_same(top, 2.0 * std::sqrt(0.5), -2.0 * std::sqrt(0.5), 4.0 * std::cos(std::acos(-1.0) / 6.0) - 4.0);
 }
 
+TEST_CASE("packets to the display are lost as a seed has it, packets from it are not") {
+    const auto arrivals = [](double part, std::uint64_t seed) {
+        auto [host_end, device_end] = transport::make_loopback();
+        sim::LossyLink lossy;
+        const Link link = lossy.over(device_end.get(), {{{.kind = sim::FaultKind::LostPackets, .amount = part}}, seed});
+        std::array<std::byte, 64> buffer{};
+        std::string arrived;
+        for (int i = 0; i < 1000; ++i) {
+            std::size_t size = 0;
+            REQUIRE(host_end->send(std::span(buffer).first(7)) == Status::Ok);
+            arrived += link.receive(buffer, size) == Status::Ok ? '1' : '0';
+            REQUIRE(link.send(std::span(buffer).first(5)) == Status::Ok);
+            REQUIRE(host_end->receive(buffer, size) == Status::Ok);
+        }
+        return arrived;
+    };
+    const std::string some = arrivals(0.3, 1);
+    CHECK(std::ranges::count(some, '1') > 620);
+    CHECK(std::ranges::count(some, '1') < 780);
+    CHECK(arrivals(0.3, 1) == some);
+    CHECK(arrivals(0.3, 2) != some);
+    CHECK(arrivals(1.0, 1) == std::string(1000, '0'));
+    CHECK(arrivals(0.0, 1) == std::string(1000, '1'));
+}
+
+TEST_CASE("a lossy link may outlive the link that it is over") {
+    auto [host_end, device_end] = transport::make_loopback();
+    sim::LossyLink lossy;
+    const sim::Faults faults{{{.kind = sim::FaultKind::LostPackets, .amount = 0.5}}};
+    const Link link = lossy.over(device_end.get(), faults);
+    const std::array<std::byte, 8> packet{};
+    while (link.send(packet) == Status::Ok) {
+    }  // Until some wait in it.
+    device_end.reset();
+    CHECK_FALSE(lossy.over(Link{}, faults));
+}
+
 TEST_CASE("a file gives the rotor, the faults, and one seed for both") {
     const sim::Conditions conditions = sim::parse_conditions(R"(
 seed = 7
@@ -166,16 +210,17 @@ part = 0.25
 )",
                                                              "bench.toml")
                                            .value();
-    CHECK(conditions.rotor.speed == 1.1);
-    CHECK(conditions.rotor.jitter == 0.01);
-    CHECK(conditions.rotor.missed == 0.1);
-    CHECK(conditions.rotor.stall_s == 3.0);
-    CHECK((conditions.rotor.seed == 7 && conditions.faults.seed == 7));
+    CHECK(conditions.rotor->speed == 1.1);
+    CHECK(conditions.rotor->jitter == 0.01);
+    CHECK(conditions.rotor->missed == 0.1);
+    CHECK(conditions.rotor->stall_s == 3.0);
+    CHECK((conditions.rotor->seed == 7 && conditions.faults.seed == 7));
     REQUIRE(conditions.faults.list.size() == 2);
     CHECK(conditions.faults.list[0].panel == 1);
     CHECK(conditions.faults.list[0].amount == 1.5);
     CHECK(conditions.faults.lost_packets() == 0.25);
     CHECK(sim::parse_conditions("", "empty.toml").value().faults.empty());
+    CHECK_FALSE(sim::parse_conditions("", "empty.toml").value().rotor.has_value());
 }
 
 TEST_CASE("a file with a mistake is refused with its line") {

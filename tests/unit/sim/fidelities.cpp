@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "driver/device/scan/modulation.h"
 #include "driver/display/timing.h"
 #include "driver/display/toml.h"
 #include "sim/exposure.h"
@@ -269,6 +270,28 @@ TEST_CASE("edges and strobes agree on half turns, every second one mirrored", "[
     display.scan.pixel_clock_hz = 5'000'000;
     display.scan.latch_ns = 100;
     CHECK(agree(display, 40, 8) > 60);
+}
+
+TEST_CASE("edges and strobes agree at whatever moment an order cuts another", "[sim][fidelities]") {
+    for (DisplayDescription display :
+         {cube(PixelFormat::Mono2), chained(PixelFormat::Rgb111), matrix(PixelFormat::Mono1)}) {
+        display.scan.min_on_ns = 0;
+        const device::ModulationConfig config = device::modulation_config(display);
+        const std::uint64_t slice_ns = device::modulate(config, 0).total_ns() * 2;
+        const std::uint64_t slots_ns = device::modulate(config, slice_ns).slot_ns(0) * 2;
+        const std::vector<std::byte> page = random_page(display, 12);
+        Both both(display);
+        std::uint64_t now_ns = 0;
+        for (std::uint64_t cut_ns = 0; cut_ns < config.shift_ns + slots_ns; cut_ns += 17) {
+            both.begin(lit_order(display, page, 0, now_ns, now_ns + slice_ns), 1, now_ns);
+            now_ns += cut_ns;
+            both.begin(lit_order(display, page, 1, now_ns, now_ns + slice_ns), 1, now_ns);
+            now_ns += slice_ns;
+        }
+        both.run_until(now_ns);
+        both.compare();
+        CHECK(both.count() > 100);
+    }
 }
 
 TEST_CASE("edges and strobes agree on matrices", "[sim][fidelities]") {
