@@ -115,8 +115,13 @@ void Exposure::Impl::for_each_lit_piece(const std::byte* bits, const PanelRows& 
         return;
     }
     for (std::uint32_t c = 0; c < channels; ++c, bits += panel.piece_bytes) {
-        for_each_lit(std::span(bits, panel.piece_bytes), panel.columns, 1, 1,
-                     [&](std::uint32_t column, std::uint32_t) { give(column, c, 1.0f); });
+        const std::span row(bits, panel.piece_bytes);
+        for (std::uint32_t first = 0; first < panel.columns; first += 64) {
+            for (std::uint64_t word = read_word(row, first / 8); word != 0; word &= word - 1) {
+                const std::uint32_t column = first + static_cast<std::uint32_t>(std::countr_zero(word));
+                if (column < panel.columns) give(column, c, 1.0f);
+            }
+        }
     }
 }
 
