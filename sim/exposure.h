@@ -11,10 +11,11 @@
 // emitted_ns() says; what makes levels of codes by itself (Strobe::kLevels) has that in its levels, and counts for its
 // whole length. Of a strobe that the shutter cuts, the part counts that it leaves.
 //
-// Memory. What is kept is rows of pixels: of each row in each slice the different patterns that were lit, each with its
-// time and mean place, where places within an eighth of a slice are one. Frames that stay, or come again, take nothing
-// more: about 100 bytes a row and pattern. Of a row that has had more than 32 of them, light is added up by pixel, and
-// places are told apart by whole slices alone; that takes 12 bytes a pixel for each of these (mono: 4).
+// Memory. What is kept is rows of pixels: of each row in each slice the different patterns of bits that were lit, and
+// for each its light and where that was, where places within an eighth of a slice are one. Frames that stay, or come
+// again, take nothing more: 100 bytes a row, its bits, and 24 bytes for each pattern and place. Of a row that has had
+// 32 of them, light is added up by pixel, and places are told apart by whole slices alone; that takes 12 bytes a pixel
+// for each of these (mono: 4).
 #pragma once
 
 #include <cstddef>
@@ -38,8 +39,8 @@ struct ExposedRow {
     std::uint32_t panel = 0;
     std::uint32_t row = 0;
     bool mirrored = false;  ///< Of half turns: LED `column` as mounted is pixel columns − 1 − column on the wire.
-    /// Where the display was, as Seats' second constructor takes it; the middle of slice s is s + ½, in every second
-    /// half turn S + s + ½.
+    /// Where it was, as Seats' second constructor takes it: the middle of slice s is s + ½, in every second half turn S
+    /// + s + ½. Slices that are swapped (FaultKind::SwappedSlices) are.
     double at = 0.5;
     double late = 0.0;  ///< By how many slices that is after the middle of the slice; before: negative.
     /// Of each LED as mounted; linear, steady full light is 1. Of a mono format all channels are equal. Borrowed for
