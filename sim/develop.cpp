@@ -106,6 +106,13 @@ Image develop(const Film& film, float glow) {
     return image;
 }
 
+std::vector<float> cover_of(const Film& film) {
+    std::vector<float> cover;
+    cover.reserve(film.pixels.size());
+    for (const glm::vec4& pixel : film.pixels) cover.push_back(pixel.w);
+    return cover;
+}
+
 double covered_share(const Film& film) {
     const auto covered =
         std::count_if(film.pixels.begin(), film.pixels.end(), [](const glm::vec4& pixel) { return pixel.w >= 0.5f; });

@@ -22,6 +22,9 @@ struct Film {
 /// are no finite number count as 0, and harm no other pixel.
 Image develop(const Film& film, float glow);
 
+/// Of each of the film's pixels, how much of it shows the lit object.
+std::vector<float> cover_of(const Film& film);
+
 /// Share of the film's pixels of which the object takes at least half.
 double covered_share(const Film& film);
 

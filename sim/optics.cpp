@@ -9,6 +9,7 @@
 
 #include "sim/pixel_rows.h"
 #include "sim/seats.h"
+#include "sim/wiring.h"
 
 namespace xorvox::sim {
 namespace {
@@ -54,31 +55,32 @@ double plane_height_mm(const DisplayDescription& display, double slice) {
     return motion.stroke_mm * profile_height(motion, part) - motion.stroke_mm / 2.0;
 }
 
-std::size_t count_lit(const DisplayDescription& display, std::span<const std::byte> page) {
+std::size_t count_lit(const DisplayDescription& display, std::span<const std::byte> page, const Faults& faults) {
     if (page.empty()) return 0;
     const std::uint32_t bits = bits_per_pixel(display.format);
     const std::uint32_t shown = PixelLight(display).shown_bits();
     std::size_t count = 0;
-    for_each_row(display, page, [&](std::uint32_t, std::uint32_t p, std::uint32_t, std::span<const std::byte> row) {
-        for_each_lit(row, display.panels[p].columns, bits, shown, [&](std::uint32_t, std::uint32_t) { ++count; });
-    });
+    Wiring(display, faults)
+        .for_each_row(page, [&](std::uint32_t, std::uint32_t p, std::uint32_t, std::span<const std::byte> row) {
+            for_each_lit(row, display.panels[p].columns, bits, shown, [&](std::uint32_t, std::uint32_t) { ++count; });
+        });
     return count;
 }
 
 LightField expose(const DisplayDescription& display, std::span<const std::byte> page, std::uint8_t brightness,
-                  const Misbuild& misbuild) {
+                  const Faults& faults) {
     LightField field{PixelLight(display), brightness, {}};
     if (page.empty()) return field;
     assert(page.size() == frame_bytes(display));
-    assert(std::max(misbuild.swap_a, misbuild.swap_b) < static_cast<std::int64_t>(frame_pixels(display)));
 
     const std::uint32_t bits = bits_per_pixel(display.format);
     const std::uint32_t shown = field.pixels.shown_bits();
-    field.flashes.reserve(count_lit(display, page));
+    field.flashes.reserve(count_lit(display, page, faults));
     std::optional<Seats> seats;
-    for_each_row(
-        display, page, [&](std::uint32_t slice, std::uint32_t p, std::uint32_t row, std::span<const std::byte> pixels) {
-            if (row == 0) seats.emplace(display, p, slice, misbuild);
+    Wiring(display, faults)
+        .for_each_row(page, [&](std::uint32_t slice, std::uint32_t p, std::uint32_t row,
+                                std::span<const std::byte> pixels) {
+            if (row == 0) seats.emplace(display, p, slice, faults);
             for_each_lit(pixels, display.panels[p].columns, bits, shown, [&](std::uint32_t column, std::uint32_t code) {
                 field.flashes.push_back({seats->place_mm(row, column), code, slice});
             });

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "driver/display/description.h"
+#include "sim/faults.h"
 #include "sim/pixel_light.h"
 
 namespace xorvox::sim {
@@ -26,33 +27,26 @@ struct LightField {
     PixelLight pixels;              ///< What the codes mean.
     std::uint8_t brightness = 255;  ///< By which all light is dimmed, of 255.
     std::vector<Flash> flashes;
+    /// Of each flash, in their order, the light that was really given (sim/exposure.h), which then counts instead of
+    /// its code; or empty.
+    std::vector<glm::vec3> measured;
 
-    /// Linear, 0 … 1 per channel, brightness applied.
+    /// Of one of `flashes`. Linear, 0 … 1 per channel, brightness applied; measured light can be more.
     glm::vec3 light(const Flash& flash) const {
+        if (!measured.empty()) return measured[static_cast<std::size_t>(&flash - flashes.data())];
         return pixels.of(flash.code) * (static_cast<float>(brightness) / 255.0f);
     }
-};
-
-/// How a display can be put together wrongly; faults for tests. Nothing by default. Of free points, which have one
-/// slice, the points are counted instead of the slices, row after row.
-struct Misbuild {
-    std::int32_t swap_a = -1;  ///< Slices (planes, points) a and b swapped; both −1: none.
-    std::int32_t swap_b = -1;
-    std::int32_t mirrored_panel = -1;  ///< Columns of this panel run the other way.
-    /// By how many slices the index mark, the plane counter of a stack or the first point of a string is off. Where a
-    /// thing is counted the count wraps; a swept plane that is late at the top is on its way down.
-    std::int32_t phase_slices = 0;
 };
 
 /// Lights every pixel of `page` (frame_bytes(display) in scan-out order, or empty: dark) of whose code a bit that is
 /// shown is set, at the place that driver/display/description.h gives it, to about 1e-12 of the display's size. A plane
 /// that is lit both ways flashes once a slice, as its two flashes are one place. Dark pixels cost next to nothing.
-/// `display` must be valid (validate_display). Throws std::bad_alloc.
+/// `display` must be valid (validate_display), and `faults` possible on it (check_faults). Throws std::bad_alloc.
 LightField expose(const DisplayDescription& display, std::span<const std::byte> page, std::uint8_t brightness,
-                  const Misbuild& misbuild = {});
+                  const Faults& faults = {});
 
-/// How many pixels of `page` (as for expose()) are lit.
-std::size_t count_lit(const DisplayDescription& display, std::span<const std::byte> page);
+/// How many flashes that gives.
+std::size_t count_lit(const DisplayDescription& display, std::span<const std::byte> page, const Faults& faults = {});
 
 /// Height of the plane of a stack or of a swept plane in the middle of slice `slice`, or as long before and after it as
 /// a broken number says: slice − ½ is where a swept plane's slice begins. Between the planes of a stack that are

@@ -262,6 +262,7 @@ Picture render_orthographic(const DisplayDescription& display, const LightField&
     }
     Picture picture;
     picture.image = develop(sheet, kGlow);
+    picture.cover = cover_of(sheet);
     picture.covered = covered_share(sheet);
     picture.clipped = clipped_share(picture.image);
     picture.drawn_by = "CPU";

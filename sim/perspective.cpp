@@ -217,13 +217,17 @@ Scene make_scene(const DisplayDescription& display, const LightField& field, con
     const std::vector<Voxel> voxels = visible_voxels(display, field);
     std::vector<Segment> segments = outline(display);
     std::vector<Target> targets;
-    for (const Voxel& voxel : voxels)
-        targets.push_back({voxel.place_mm, kVoxelFilling * glm::length(voxel.half_mm) / 1.7});
+    const auto aim_at = [&targets](const std::vector<Voxel>& framed) {
+        for (const Voxel& voxel : framed) {
+            targets.push_back({voxel.place_mm, kVoxelFilling * glm::length(voxel.half_mm) / 1.7});
+        }
+    };
+    aim_at(options.framed != nullptr ? visible_voxels(display, *options.framed) : voxels);
     if (options.framing == Framing::Display) {
         const std::vector<Segment> more = marks(display);
         segments.insert(segments.end(), more.begin(), more.end());
     }
-    if (options.framing == Framing::Display || voxels.empty()) {
+    if (options.framing == Framing::Display || targets.empty()) {
         for (const Segment& segment : segments) {
             targets.push_back({segment.from_mm, 0.0});
             targets.push_back({segment.to_mm, 0.0});
@@ -308,6 +312,7 @@ Expected<Picture> render_perspective(const DisplayDescription& display, const Li
 
     Picture picture;
     picture.image = develop(*film, kGlow);
+    picture.cover = cover_of(*film);
     picture.covered = covered_share(*film);
     picture.clipped = clipped_share(picture.image);
     picture.drawn_by = fmt::format("{}: {}", gl::to_string((*context)->kind()), (*context)->renderer());

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "driver/display/description.h"
 #include "sim/image.h"
@@ -29,14 +30,18 @@ struct PictureOptions {
     double elevation_deg = 22.0;  ///< And how high: -89 … 89; 90 would look straight down.
     Framing framing = Framing::Object;
     gl::ContextKind context = gl::ContextKind::Auto;
+    /// What the camera frames instead of the light that it shows, so that pictures can be laid over each other;
+    /// borrowed.
+    const LightField* framed = nullptr;
 };
 
 /// An image and how well it is filled.
 struct Picture {
     Image image;
-    double covered = 0.0;  ///< Share of the pixels that show the lit object: at least half of each.
-    double clipped = 0.0;  ///< Share of the pixels with a channel at 255.
-    std::string drawn_by;  ///< The OpenGL context and renderer, or "CPU".
+    std::vector<float> cover;  ///< Of each pixel the part, 0 … 1, that shows the lit object.
+    double covered = 0.0;      ///< Share of the pixels that show the lit object: at least half of each.
+    double clipped = 0.0;      ///< Share of the pixels with a channel at 255.
+    std::string drawn_by;      ///< The OpenGL context and renderer, or "CPU".
 };
 
 /// A view in perspective from slightly above: the camera looks from the side of azimuth_deg, as near as what it

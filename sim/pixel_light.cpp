@@ -1,17 +1,9 @@
 #include "sim/pixel_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace xorvox::sim {
-namespace {
-
-/// Where a channel is in a code.
-struct Channel {
-    unsigned low = 0;
-    unsigned bits = 0;
-};
 
 std::array<Channel, 3> channels(PixelFormat format) {
     switch (format) {
@@ -26,6 +18,8 @@ std::array<Channel, 3> channels(PixelFormat format) {
     }
     return {};
 }
+
+namespace {
 
 double respond(const Light& light, double level) {
     switch (light.response) {

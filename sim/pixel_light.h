@@ -1,6 +1,7 @@
 // PixelLight: what light the code of a pixel gives.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -8,6 +9,14 @@
 #include "driver/display/description.h"
 
 namespace xorvox::sim {
+
+/// Where a channel is in a code.
+struct Channel {
+    unsigned low = 0;
+    unsigned bits = 0;
+};
+/// Red, green and blue; of mono formats three times the one that there is.
+std::array<Channel, 3> channels(PixelFormat format);
 
 /// How a display's pixels make light of codes. Any number of threads may use one.
 struct PixelLight {

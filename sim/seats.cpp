@@ -4,6 +4,8 @@
 #include <complex>
 #include <numbers>
 
+#include "sim/optics.h"
+
 namespace xorvox::sim {
 namespace {
 
@@ -20,37 +22,60 @@ std::complex<double> turn_by(double turns) {
     return std::polar(1.0, 2.0 * std::numbers::pi * turns);
 }
 
-/// Item `index` of `count` after a misbuild has swapped two of them.
-std::uint32_t swapped(std::uint32_t index, const Misbuild& misbuild) {
-    if (misbuild.swap_a < 0 || misbuild.swap_b < 0) return index;
-    const auto a = static_cast<std::uint32_t>(misbuild.swap_a);
-    const auto b = static_cast<std::uint32_t>(misbuild.swap_b);
-    return index == a ? b : index == b ? a : index;
+/// A counter that wraps.
+std::uint32_t wrapped(std::int64_t index, std::uint32_t count) {
+    const std::int64_t rest = index % count;
+    return static_cast<std::uint32_t>(rest < 0 ? rest + count : rest);
 }
 
-/// A counter that starts late or early, and wraps.
-std::uint32_t counted(std::uint32_t index, std::uint32_t count, const Misbuild& misbuild) {
-    const std::int64_t late = (std::int64_t{swapped(index, misbuild)} + misbuild.phase_slices) % count;
-    return static_cast<std::uint32_t>(late < 0 ? late + count : late);
+/// The panel as it really stands. Of displays that have no shift_mm, that of the image.
+Panel as_built(Panel panel, std::uint32_t number, const Faults& faults) {
+    for (const Fault& fault : faults.list) {
+        if (fault.panel != number) continue;
+        if (fault.kind == FaultKind::OffAxis) panel.offset_mm += fault.amount;
+        if (fault.kind == FaultKind::Shifted) panel.shift_mm += fault.amount;
+        if (fault.kind == FaultKind::Tilted) panel.tilt_deg += fault.amount;
+    }
+    return panel;
+}
+
+double plane_shift_mm(std::uint32_t plane, const Faults& faults) {
+    double shift = 0.0;
+    for (const Fault& fault : faults.list) {
+        if (fault.kind == FaultKind::ShiftedPlane && fault.slice == plane) shift += fault.amount;
+    }
+    return shift;
 }
 
 }  // namespace
 
-Seats::Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Misbuild& misbuild)
-    : Seats(display, panel, swapped(slice, misbuild) + 0.5, misbuild) {}
+std::uint32_t lit_slice(std::uint32_t slice, const Faults& faults) {
+    for (const Fault& fault : faults.list) {
+        if (fault.kind != FaultKind::SwappedSlices) continue;
+        if (slice == fault.slice) {
+            slice = fault.other;
+        } else if (slice == fault.other) {
+            slice = fault.slice;
+        }
+    }
+    return slice;
+}
 
-Seats::Seats(const DisplayDescription& display, std::uint32_t panel, double at, const Misbuild& misbuild)
+Seats::Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Faults& faults)
+    : Seats(display, panel, lit_slice(slice, faults) + 0.5, faults) {}
+
+Seats::Seats(const DisplayDescription& display, std::uint32_t panel, double at, const Faults& faults)
     : display_(display),
-      panel_(display.panels[panel]),
-      misbuild_(misbuild),
-      reversed_(misbuild.mirrored_panel == static_cast<std::int32_t>(panel)),
+      faults_(faults),
+      panel_(as_built(display.panels[panel], panel, faults)),
       on_side_(turn_by(panel_.turned / 4.0)),
       tilt_(turn_by(panel_.tilt_deg / 360.0)) {
-    const double late = at + static_cast<double>(misbuild.phase_slices);
+    const double late = at + faults.late_slices();
     switch (display.kind) {
         case DisplayKind::StackedPlanes: {
-            const auto plane = static_cast<std::int64_t>(std::floor(late)) % display.slices;
-            height_mm_ = plane_height_mm(display, static_cast<double>(plane < 0 ? plane + display.slices : plane));
+            const std::uint32_t plane = wrapped(static_cast<std::int64_t>(std::floor(late)), display.slices);
+            height_mm_ = plane_height_mm(display, plane);
+            panel_.shift_mm += plane_shift_mm(plane, faults);
             break;
         }
         case DisplayKind::SweptPlane: height_mm_ = plane_height_mm(display, late - 0.5); break;
@@ -64,19 +89,20 @@ Seats::Seats(const DisplayDescription& display, std::uint32_t panel, double at, 
     }
 }
 
-glm::dvec3 Seats::place_mm(std::uint32_t row, std::uint32_t wired) const {
-    const std::uint32_t column = reversed_ ? panel_.columns - 1u - wired : wired;
+glm::dvec3 Seats::place_mm(std::uint32_t row, std::uint32_t column) const {
     const double across = along(column, panel_.columns, panel_.column_pitch_mm);
     const double rising = along(row, panel_.rows, panel_.row_pitch_mm);
+    const double x = panel_.shift_mm + across;
     switch (display_.kind) {
         case DisplayKind::StackedPlanes:
-        case DisplayKind::SweptPlane: return {across, rising, height_mm_};
+        case DisplayKind::SweptPlane: return {x, rising, height_mm_};
         case DisplayKind::RotatingPanel: return rotor_place(column, across, -rising);
-        case DisplayKind::Helix: return {across, rising, screen_height(Turn(across, rising))};
+        case DisplayKind::Helix: return {x, rising, screen_height(Turn(x, rising))};
         case DisplayKind::FreePoints: break;
     }
-    const auto count = static_cast<std::uint32_t>(display_.points.size());
-    const PointMm& point = display_.points[counted(row * panel_.columns + column, count, misbuild_)];
+    const std::int64_t number = std::int64_t{lit_slice(row * panel_.columns + column, faults_)} +
+                                static_cast<std::int64_t>(faults_.late_slices());
+    const PointMm& point = display_.points[wrapped(number, static_cast<std::uint32_t>(display_.points.size()))];
     return {point.x, point.y, point.z};
 }
 

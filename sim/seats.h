@@ -8,20 +8,24 @@
 #include <glm/vec3.hpp>
 
 #include "driver/display/description.h"
-#include "sim/optics.h"
+#include "sim/faults.h"
 
 namespace xorvox::sim {
 
+/// The slice, or point of a string, in whose place `slice` is lit: another one where faults have swapped the two.
+std::uint32_t lit_slice(std::uint32_t slice, const Faults& faults);
+
 class Seats {
 public:
-    /// `display` must be valid, and is borrowed, as is `misbuild`.
-    Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Misbuild& misbuild);
+    /// `display` must be valid, and is borrowed, as is `faults`, of which those of its pose count (sim/faults.h).
+    Seats(const DisplayDescription& display, std::uint32_t panel, std::uint32_t slice, const Faults& faults);
 
-    /// The same where the display is at `at` of its slices: slice s is lit from s to s + 1, and its samples stand at s
-    /// + ½. Before and after them as Misbuild::phase_slices says. Of a stack: the plane floor(at).
-    Seats(const DisplayDescription& display, std::uint32_t panel, double at, const Misbuild& misbuild);
+    /// The same where the display is at `at` of its slices, whichever slice was meant (lit_slice): slice s is lit from
+    /// s to s + 1, and its samples stand at s + ½. Before and after them as FaultKind::Phase says. Of a stack: the
+    /// plane floor(at).
+    Seats(const DisplayDescription& display, std::uint32_t panel, double at, const Faults& faults);
 
-    /// Of pixel `column` on the wire.
+    /// Of the LED in this row and column.
     glm::dvec3 place_mm(std::uint32_t row, std::uint32_t column) const;
 
 private:
@@ -31,9 +35,8 @@ private:
     double screen_height(const Turn& place) const;
 
     const DisplayDescription& display_;
-    const Panel& panel_;
-    const Misbuild& misbuild_;
-    bool reversed_;
+    const Faults& faults_;
+    Panel panel_;  ///< As it really stands.
     Turn on_side_;
     Turn tilt_;
     Turn turned_{1.0, 0.0};   ///< Rotating panel: by how much it has turned about the axis.

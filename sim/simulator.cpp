@@ -13,6 +13,11 @@
 #include "driver/device/config.h"
 #include "driver/device/scan_control.h"
 #include "driver/display/toml.h"
+#include "sim/clockwork.h"
+#include "sim/link_tap.h"
+#include "sim/lossy_link.h"
+#include "sim/scan_out.h"
+#include "sim/wiring.h"
 
 namespace xorvox::sim {
 namespace {
@@ -46,10 +51,15 @@ Expected<void> check_built(const DisplayDescription& display, const DisplayDescr
                     display.name.view(), built.name.view(), difference));
 }
 
+/// By how many cycles the display is further than the device takes it to be.
+double phase_ahead(const DisplayDescription& display, const DisplayDescription& built) {
+    return std::remainder(built.sync.index_phase - display.sync.index_phase, 1.0);
+}
+
 /// By how many slices light comes late, in whole ones, where the index mark is not at the phase that the device goes
 /// by.
 std::int32_t late_slices(const DisplayDescription& display, const DisplayDescription& built) {
-    const double cycles = std::remainder(built.sync.index_phase - display.sync.index_phase, 1.0);
+    const double cycles = phase_ahead(display, built);
     const bool sweeps = display.kind == DisplayKind::SweptPlane;
     const double lit = sweeps ? 0.5 * (1.0 - 2.0 * display.motion.dead_zone) : 1.0;
     return static_cast<std::int32_t>(std::lround(cycles * display.slices / lit));
@@ -60,12 +70,38 @@ std::int32_t late_slices(const DisplayDescription& display, const DisplayDescrip
 struct Simulator::Impl {
     DisplayDescription display;
     DisplayDescription built;
-    Misbuild misbuild;
+    Faults faults;
+    LossyLink wire;
     std::int32_t late_slices = 0;
     std::vector<std::byte> pages;
     std::vector<std::byte> packet;
     device::Device device;
     device::ScanControl control;
+    TimingWatch timing;
+    LinkTap tap{timing};
+    bool keeps_time = false;
+    std::optional<Clockwork> clockwork;
+    Fidelity fidelity = Fidelity::Strobes;
+    StrobeSink strobe_sink;
+    PinSink pin_sink;
+
+    /// What the device is given of `link`.
+    Link plugged(Link link) {
+        const Link what_arrives = wire.over(link, faults);
+        return keeps_time ? tap.over(what_arrives) : what_arrives;
+    }
+
+    void scan_anew() {
+        const bool edges = fidelity == Fidelity::Edges;
+        std::unique_ptr<ScanOut> scan;
+        if (strobe_sink || (edges && pin_sink)) {
+            StrobeSink sink = with_wiring_faults(
+                display, faults, strobe_sink ? strobe_sink : [](const Strobe&) {});
+            scan = edges ? make_edge_scan(display, std::move(sink), pin_sink).value()
+                         : make_strobe_scan(display, std::move(sink));
+        }
+        clockwork->set_scan(std::move(scan));
+    }
 };
 
 Simulator::Simulator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -77,13 +113,23 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
     if (const Expected<void> valid = validate_display(display); !valid) return tl::unexpected(valid.error());
     const DisplayDescription& built = options.built ? *options.built : display;
     if (const Expected<void> same = check_built(display, built); !same) return tl::unexpected(same.error());
+    if (const Expected<void> possible = check_faults(built, options.faults); !possible) {
+        return tl::unexpected(possible.error());
+    }
+    if (options.fidelity == Fidelity::Edges) {
+        if (const auto scan = make_edge_scan(display, [](const Strobe&) {}, {}); !scan) {
+            return tl::unexpected(scan.error());
+        }
+    }
     auto impl = std::make_unique<Impl>();
     impl->display = display;
     impl->built = built;
     impl->built.motion.dead_zone = display.motion.dead_zone;
     impl->built.motion.both_ways = display.motion.both_ways;
-    impl->misbuild = options.misbuild;
+    impl->faults = options.faults;
     impl->late_slices = late_slices(display, built);
+    impl->keeps_time = options.keeps_time;
+    impl->fidelity = options.fidelity;
     impl->pages.resize(std::size_t{options.pages} * frame_bytes(display));
     impl->packet.resize(options.max_packet_bytes);
 
@@ -91,7 +137,7 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
     config.display = &impl->display;
     config.serial = DisplayName("simulator");
     config.boot_nonce = options.boot_nonce;
-    config.link = link;
+    config.link = impl->plugged(link);
     config.pages = impl->pages;
     config.page_count = options.pages;
     config.packet = impl->packet;
@@ -101,35 +147,59 @@ Expected<Simulator> Simulator::make(const DisplayDescription& display, Link link
             display.name.view(), to_string(status), options.pages, device::kMaxPages, options.max_packet_bytes,
             wire::kMinPacketBytes, wire::kMaxPacketBytes));
     }
-    // The motor keeps to the device's clock: cycle 0 begins at time 0, and the others where they should.
+    // Without conditions the motor keeps to the device's clock: cycle 0 begins at time 0, and the others where they
+    // should.
     device::ScanControlConfig scan = device::scan_control_config(impl->display);
-    scan.rotation.source = IndexSource::None;
+    if (!options.rotor) scan.rotation.source = IndexSource::None;
     if (const Status status = impl->control.init(scan, impl->device, 0); status != Status::Ok) {
         return fail(fmt::format("cannot simulate display {}: its scan-out cannot be computed in integers ({})",
                                 display.name.view(), to_string(status)));
     }
+    impl->clockwork.emplace(impl->display, impl->device, impl->control, options.rotor ? &*options.rotor : nullptr,
+                            options.keeps_time ? &impl->timing : nullptr);
     return Simulator(std::move(impl));
 }
 
 Status Simulator::poll(std::uint64_t now_ns) {
-    (void)impl_->control.poll(now_ns);  // What it orders, the light of a whole cycle shows.
-    return impl_->device.poll(now_ns);
+    impl_->clockwork->run_until(now_ns);
+    impl_->tap.set_time(now_ns);
+    const Status status = impl_->device.poll(now_ns);
+    impl_->clockwork->device_moved();
+    return status;
+}
+
+void Simulator::watch(StrobeSink sink) {
+    impl_->strobe_sink = std::move(sink);
+    impl_->scan_anew();
+}
+
+void Simulator::watch_pins(PinSink sink) {
+    impl_->pin_sink = std::move(sink);
+    impl_->scan_anew();
+}
+
+double Simulator::cycles_at(std::uint64_t time_ns) const {
+    return impl_->clockwork->cycles_at(time_ns) + phase_ahead(impl_->display, impl_->built);
+}
+
+const TimingWatch& Simulator::timing() const {
+    return impl_->timing;
 }
 
 void Simulator::set_link(Link link) {
-    impl_->device.set_link(link);
+    impl_->device.set_link(impl_->plugged(link));
 }
 
 std::uint64_t Simulator::next_boundary_ns() const {
-    return impl_->control.next_boundary_ns();
+    return impl_->clockwork->next_ns();
 }
 
 LightField Simulator::light() const {
     const device::Shown shown = impl_->device.shown();
     const auto expose_late = [&](std::int32_t slices) {
-        Misbuild misbuild = impl_->misbuild;
-        misbuild.phase_slices += slices;
-        return expose(impl_->built, shown.page, shown.brightness, misbuild);
+        Faults faults = impl_->faults;
+        if (slices != 0) faults.list.push_back({.kind = FaultKind::Phase, .amount = static_cast<double>(slices)});
+        return expose(impl_->built, shown.page, shown.brightness, faults);
     };
     LightField field = expose_late(impl_->late_slices);
     if (impl_->late_slices != 0 && impl_->display.motion.both_ways) {
@@ -150,6 +220,10 @@ const DisplayDescription& Simulator::display() const {
 
 const DisplayDescription& Simulator::built() const {
     return impl_->built;
+}
+
+const Faults& Simulator::faults() const {
+    return impl_->faults;
 }
 
 }  // namespace xorvox::sim

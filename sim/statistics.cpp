@@ -4,34 +4,14 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <limits>
-#include <string_view>
 #include <vector>
 
+#include "sim/json.h"
 #include "sim/rebuild.h"
 #include "sim/space.h"
 
 namespace xorvox::sim {
-namespace {
-
-std::string quoted(std::string_view text) {
-    std::string json = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') {
-            json += '\\';
-            json += c;
-        } else if (static_cast<unsigned char>(c) < 0x20) {
-            fmt::format_to(std::back_inserter(json), "\\u{:04x}", static_cast<unsigned>(c));
-        } else {
-            json += c;
-        }
-    }
-    return json + '"';
-}
-
-}  // namespace
-
 Statistics measure(const DisplayDescription& display, const LightField& field, const wire::DeviceStatus& device) {
     const DisplaySamples samples(display);
     const Rebuilt seen = samples.rebuild(field);
@@ -87,8 +67,9 @@ std::string to_json(const Statistics& statistics) {
     return fmt::format(
         R"({{"display": {}, "samples": {}, "places": {}, "pixels_lit": {}, "voxels_lit": {}, "light_outside": {}, )"
         R"("coverage": {:.6g}, "visits": {}, "frame": {}, "brightness": {}, "blank": {}}})",
-        quoted(statistics.display), statistics.samples, statistics.places, statistics.pixels_lit, statistics.voxels_lit,
-        statistics.light_outside, statistics.coverage, seen, frame, statistics.brightness, statistics.blank);
+        json_quoted(statistics.display), statistics.samples, statistics.places, statistics.pixels_lit,
+        statistics.voxels_lit, statistics.light_outside, statistics.coverage, seen, frame, statistics.brightness,
+        statistics.blank);
 }
 
 }  // namespace xorvox::sim

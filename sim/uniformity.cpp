@@ -40,7 +40,7 @@ std::vector<double> pixel_volumes(const DisplayDescription& display, const Sampl
     std::vector<double> all;
     std::size_t first = 0;  // Of the panel, in the lattice's x.
     const bool upright = display.kind == DisplayKind::RotatingPanel && is_upright(display);
-    const Misbuild none;
+    const Faults none;
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         const Panel& panel = display.panels[p];
         const Seats seats(display, p, std::uint32_t{0}, none);
@@ -129,7 +129,7 @@ glm::dvec3 UniformityMeter::middle_mm(std::size_t cell) const {
 
 template <class Visit>
 void UniformityMeter::for_each_row_of_cells(const Visit& visit) const {
-    const Misbuild none;
+    const Faults none;
     std::vector<std::uint32_t> first_row;
     std::vector<std::uint32_t> cells;
     for (std::uint32_t slice = 0; slice < display_.slices; ++slice) {

@@ -28,6 +28,7 @@ struct AllOptions {
     BenchOptions bench;
     BenchDisplayOptions bench_display;
     BenchColorOptions bench_color;
+    BenchSimOptions bench_sim;
     DisplaysOptions displays;
     ValidateOptions validate;
     PlanOptions plan;
@@ -78,6 +79,9 @@ void add_light(CLI::App& app, LightOptions& light);
 /// --threshold and --volume; add_transfer() the colours of values.
 void add_volume(CLI::App& app, VolumeOptions& volume);
 void add_transfer(CLI::App& app, VolumeOptions& volume);
+
+/// How a simulated display behaves: --fault and --sim.
+void add_simulation(CLI::App& app, SimulationOptions& options);
 
 /// "64" into a number of things, at most `most`. A CLI::ValidationError says what is wrong; so below.
 std::uint32_t parse_count(const std::string& option, const std::string& text, std::uint32_t most);

@@ -66,6 +66,23 @@ CLI::App& bench_color_command(CLI::App& bench, BenchColorOptions& options) {
     return app;
 }
 
+CLI::App& bench_sim_command(CLI::App& bench, BenchSimOptions& options) {
+    CLI::App& app = *bench.add_subcommand(
+        "sim",
+        "Measure how much faster than real time the simulator is on one core: device, strobes and the light of every "
+        "voxel, of a mesh and of a frame in full white, on rotors that keep their time and that jitter");
+    app.add_option("mesh", options.mesh, "The mesh: a .ply, .stl or .obj file")->required()->type_name("MESH");
+    app.add_option("displays", options.displays, "Presets or display files")
+        ->capture_default_str()
+        ->type_name("NAME|FILE.toml");
+    app.add_option("--seconds", options.seconds, "Simulated time of each measurement")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 1000.0));
+    app.add_flag("--json", options.json, "One JSON array on standard output");
+    examples(app, "  xorvox bench sim examples/duck.ply\n  xorvox bench sim bunny.ply vortex --seconds 10");
+    return app;
+}
+
 }  // namespace
 
 Command bench_command(CLI::App& program, AllOptions& options) {
@@ -73,14 +90,16 @@ Command bench_command(CLI::App& program, AllOptions& options) {
     bench.require_subcommand(1);
     examples(bench,
              "  xorvox bench voxelize bunny.ply\n  xorvox bench displays bunny.ply\n  xorvox bench color "
-             "bunny.ply\n\nxorvox bench voxelize --help tells "
+             "bunny.ply\n  xorvox bench sim bunny.ply\n\nxorvox bench voxelize --help tells "
              "more.");
     CLI::App& of_voxelizer = bench_voxelize_command(bench, options.bench);
     CLI::App& of_displays = bench_displays_command(bench, options.bench_display);
+    CLI::App& of_sim = bench_sim_command(bench, options.bench_sim);
     bench_color_command(bench, options.bench_color);
-    return {&bench, [&options, &of_voxelizer, &of_displays] {
+    return {&bench, [&options, &of_voxelizer, &of_displays, &of_sim] {
                 if (of_voxelizer.parsed()) return bench_voxelize(options.bench);
                 if (of_displays.parsed()) return bench_displays(options.bench_display);
+                if (of_sim.parsed()) return bench_sim(options.bench_sim);
                 return bench_color(options.bench_color);
             }};
 }

@@ -41,6 +41,7 @@ void add_delivery(CLI::App& app, DeliveryOptions& options) {
                    "The display as it is really built, where it differs from its file: shows what a mistake in the "
                    "file looks like; needs --to loopback")
         ->type_name("NAME|FILE.toml");
+    add_simulation(app, options.simulation);
     app.add_option_function<std::string>(
            "--size", [&options](const std::string& text) { options.size = parse_size("--size", text); },
            "Pixels of --png (default 960x720); an orthographic one has three square views and only a width counts")
@@ -165,11 +166,13 @@ Command sim_command(CLI::App& program, SimOptions& options) {
     app.add_option("--listen", options.listen, "Where clients connect: tcp:PORT (on 127.0.0.1) or tcp:HOST:PORT")
         ->required()
         ->type_name("ADDRESS");
+    add_simulation(app, options.simulation);
     app.add_option("--record", options.record, "What passes, as a recording (docs/recordings.md), whole once it ends")
         ->type_name("F.xvr");
     app.add_flag("--json", options.json, "One JSON object a line on standard output, for every frame shown");
     examples(app,
              "  xorvox sim --display vortex --listen tcp:7777\n"
+             "  xorvox sim --display vortex --listen tcp:7777 --fault lost-packets:part=0.1\n"
              "  xorvox sim --display vortex --listen tcp:7777 --record seen.xvr");
     return {&app, [&options] { return tools::sim(options); }};
 }
@@ -230,6 +233,7 @@ Command pattern_command(CLI::App& program, PatternOptions& options) {
     add_delivery(app, options.delivery);
     examples(app,
              "  xorvox pattern vortex\n  xorvox pattern vortex panels --png panels.png\n"
+             "  xorvox pattern vortex axis --fault off-axis:panel=1,mm=3 --png off-axis.png\n"
              "  xorvox pattern mine.toml walk --to tcp:127.0.0.1:7777");
     return {&app, [&options] { return pattern(options); }};
 }

@@ -79,6 +79,12 @@ struct PictureSize {
     std::uint32_t height = 0;
 };
 
+/// How a simulated display behaves; of those that are in this program, and of `sim`.
+struct SimulationOptions {
+    std::vector<std::string> faults;  ///< As sim::parse_fault() takes them.
+    std::string file;                 ///< Of sim::Conditions; empty: none.
+};
+
 /// Where light goes, and what is told of it; shared by show, pattern and share.
 struct DeliveryOptions {
     std::string to = "loopback";
@@ -87,6 +93,7 @@ struct DeliveryOptions {
     std::string frame;  ///< What --png shows: "object", what is lit, or "display", all of it; empty: "object".
     std::string built;  ///< A preset or display file: the simulated display as it is really built; empty: no other.
     std::optional<PictureSize> size;
+    SimulationOptions simulation;
     std::string record;  ///< A recording of the link; empty: none.
     bool hold = false;   ///< Stay until a signal.
     bool json = false;
@@ -179,6 +186,7 @@ struct ValidateOptions {
 struct SimOptions {
     std::string display = "cube16-ws2812";
     std::string listen;
+    SimulationOptions simulation;
     std::string record;  ///< A recording of all clients; empty: none.
     bool json = false;
 };
@@ -215,6 +223,13 @@ struct BenchColorOptions {
     bool json = false;
 };
 
+struct BenchSimOptions {
+    std::string mesh;
+    std::vector<std::string> displays{"vortex", "rotovox"};
+    double seconds = 2.0;  ///< For which the shutter is open.
+    bool json = false;
+};
+
 struct UniformityOptions {
     std::vector<std::string> displays;  ///< Empty: every preset.
     std::uint32_t frames = 8;           ///< Of dithering in time; at least 1.
@@ -234,6 +249,7 @@ Expected<void> share(const ShareOptions& options);
 Expected<void> bench_voxelize(const BenchOptions& options);
 Expected<void> bench_displays(const BenchDisplayOptions& options);
 Expected<void> bench_color(const BenchColorOptions& options);
+Expected<void> bench_sim(const BenchSimOptions& options);
 Expected<void> displays(const DisplaysOptions& options);
 Expected<void> validate(const ValidateOptions& options);
 Expected<void> control(const ControlOptions& options);

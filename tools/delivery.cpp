@@ -19,6 +19,7 @@
 #include "tools/clock.h"
 #include "tools/console.h"
 #include "tools/placement.h"
+#include "tools/simulation.h"
 #include "tools/stop.h"
 #include "transport/file.h"
 #include "transport/loopback.h"
@@ -151,6 +152,10 @@ Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const 
         built = std::move(*file);
         wanted.built = built;
     }
+    Expected<sim::Conditions> conditions = read_conditions(options.simulation);
+    if (!conditions) return tl::unexpected(conditions.error());
+    wanted.faults = std::move(conditions->faults);
+    wanted.rotor = conditions->rotor;
     Expected<sim::Simulator> simulator = sim::Simulator::make(display, link, wanted);
     if (!simulator) return tl::unexpected(simulator.error());
     return LocalDisplay{std::move(built), std::move(*simulator)};
@@ -176,6 +181,14 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
     if (!options.built.empty() && !here) {
         return fail("--built is how a display in this program is built and needs --to loopback; leave out one of them");
     }
+    const SimulationOptions& simulation = options.simulation;
+    if (!here && !(simulation.faults.empty() && simulation.file.empty())) {
+        return fail(
+            fmt::format("{} is for a display in this program and needs --to loopback; of a distant one, give "
+                        "it to xorvox sim",
+                        simulation.faults.empty() ? "--sim" : "--fault"));
+    }
+    if (const auto conditions = read_conditions(simulation); !conditions) return tl::unexpected(conditions.error());
     if (options.size) {
         if (options.png.empty()) return fail("--size is that of --png; give --png OUT.png too");
         const auto [width, height] = *options.size;
@@ -199,6 +212,10 @@ Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std:
                                            const DeliveryOptions& options, io::AtomicFile* png) {
     // Flashes, and what sorts and draws them.
     constexpr std::uint64_t kBytesAPixel = 160;
+    if (!simulator.faults().empty()) {
+        // What is stuck lights pixels that nobody asked for.
+        pixels = sim::count_lit(simulator.built(), simulator.device().shown().page, simulator.faults());
+    }
     if (const auto fits = check_memory(pixels * kBytesAPixel, "the light of " + thousands(pixels) + " pixels"); !fits) {
         if (png != nullptr || options.json) return tl::unexpected(fits.error());
         warn("the display shows the frame, but its light is not measured: " + fits.error().message);

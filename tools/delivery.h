@@ -61,7 +61,8 @@ Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const 
 Expected<std::optional<LightSeen>> look_at(const sim::Simulator& simulator, std::uint64_t now_ns, std::size_t pixels,
                                            const DeliveryOptions& options, io::AtomicFile* png);
 
-/// What of `options` can be refused before any work: --png and --built without loopback, the picture's name,
+/// What of `options` can be refused before any work: --png, --built, --fault and --sim without loopback, faults that
+/// are none, the picture's name,
 /// --view, --frame and --size without it, --hold without tcp, an output that would overwrite the file `input` (empty:
 /// none).
 Expected<void> check_delivery(const DeliveryOptions& options, const transport::Address& address,

@@ -4,7 +4,7 @@ packages_build="cmake ninja-build g++ pkg-config libglm-dev libexpected-dev libf
     libpng-dev libjpeg62-turbo-dev zlib1g-dev libtinygltf-dev libassimp-dev liblz4-dev libhwy-dev libgl-dev libegl-dev
     libegl1 libgl1-mesa-dri libosmesa6"
 packages_test="ccache catch2 assimp-testmodels python3 clang clang-format libclang-rt-14-dev gcc-arm-none-eabi
-    libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm g++-aarch64-linux-gnu qemu-user zstd"
+    libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm g++-aarch64-linux-gnu qemu-user sigrok-cli zstd"
 
 # need PACKAGE …: installs what is missing, says so; changes nothing when all is there.
 need() {

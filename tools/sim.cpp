@@ -16,6 +16,7 @@
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/placement.h"
+#include "tools/simulation.h"
 #include "tools/stop.h"
 #include "transport/address.h"
 #include "transport/tcp.h"
@@ -63,7 +64,7 @@ public:
             fmt::print("dark: {}\n", why_dark(status));
         } else {
             fmt::print("frame {}: {} pixels lit\n", status.shown_frame,
-                       thousands(sim::count_lit(display_, shown.page)));
+                       thousands(sim::count_lit(display_, shown.page, simulator.faults())));
         }
         std::fflush(stdout);
     }
@@ -91,7 +92,11 @@ Expected<void> sim(const SimOptions& options) {
     if (!display) return tl::unexpected(display.error());
     if (const auto fits = check_display_fits(*display); !fits) return fits;
     // As a device draws one at each start: hosts that come again see that this is another run.
-    const sim::SimulatorOptions simulated{.boot_nonce = std::random_device{}()};
+    sim::SimulatorOptions simulated{.boot_nonce = std::random_device{}()};
+    Expected<sim::Conditions> conditions = read_conditions(options.simulation);
+    if (!conditions) return tl::unexpected(conditions.error());
+    simulated.faults = std::move(conditions->faults);
+    simulated.rotor = conditions->rotor;
     Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{}, simulated);
     if (!simulator) return tl::unexpected(simulator.error());
     Expected<transport::TcpListener> listener = transport::TcpListener::listen(address->port, address->host);

@@ -7,28 +7,12 @@
 #include <vector>
 
 #include "transport/hosted.h"
+#include "transport/random.h"
 
 namespace xorvox::transport {
 namespace {
 
 using Packet = std::vector<std::byte>;
-
-/// SplitMix64 (Steele, Lea and Flood 2014). The standard library's distributions differ between implementations.
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t next() {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    bool chance(double probability) { return static_cast<double>(next() >> 11) * 0x1p-53 < probability; }
-    std::size_t below(std::size_t bound) { return static_cast<std::size_t>(next() % bound); }
-
-private:
-    std::uint64_t state_;
-};
 
 /// One direction: packets go in, what is left of them comes out.
 class Mill {

@@ -1,7 +1,8 @@
 // What the hosted backends share: an operations table made from a class, the input side of a byte stream, deadlines,
 // the system's words for its errors.
 //
-// Internal to transport; not installed. A backend for firmware writes its table by hand, as link_template.cpp does.
+// Internal to transport and sim; not installed. A backend for firmware writes its table by hand, as link_template.cpp
+// does.
 #pragma once
 
 #include <algorithm>

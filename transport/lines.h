@@ -42,7 +42,7 @@ struct LinesInfo {
 
 /// The operations of a backend. `self` is the object that Lines::self points to. None may throw. One thread at a time
 /// may call them for one object. Lines outside of `outputs` in a mask: InvalidArgument, and nothing changes. An error
-/// of the hardware: Failed or Closed; what the lines then carry is unknown, and the caller goes dark as far as it can.
+/// of the hardware: Closed; what the lines then carry is unknown, and the caller goes dark as far as it can.
 struct LinesOperations {
     LinesInfo (*info)(const void* self);
 

@@ -51,9 +51,11 @@ constexpr double scan_time_ns(const DisplayDescription& display, std::uint32_t p
         case DriverChip::Apa102: return (32.0 + 32.0 * pixels + pixels / 2.0) * shift_ns + scan.latch_ns;
         default: break;
     }
-    // A layer of an LED cube is selected by bits in the same chain.
-    const double layer_bits = scan.driver == DriverChip::ShiftRegister595 ? display.slices : 0.0;
-    const double shifted_ns = (pixels / scan.row_groups + layer_bits) * shift_ns;
+    // The channels of an LED cube and the bits that select its layers are in the same chain.
+    const bool one_chain = scan.driver == DriverChip::ShiftRegister595;
+    const double bits = one_chain ? pixels * channel_count(display.format) : pixels;
+    const double layer_bits = one_chain ? display.slices : 0.0;
+    const double shifted_ns = (bits / scan.row_groups + layer_bits) * shift_ns;
     double total = 0.0;
     double lit_ns = scan.min_on_ns;
     for (std::uint32_t plane = 0; plane < planes; ++plane, lit_ns *= 2.0) {

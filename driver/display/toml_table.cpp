@@ -41,10 +41,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-std::string_view nearest_key(std::string_view name, std::span<const Key> keys) {
-    return std::ranges::min_element(keys, {}, [name](const Key& key) { return edit_distance(name, key.name); })->name;
-}
-
 /// `"a", "b" or "c"`.
 std::string alternatives(std::span<const std::string_view> names) {
     std::string text;
@@ -57,13 +53,20 @@ std::string alternatives(std::span<const std::string_view> names) {
 
 }  // namespace
 
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> names) {
+    name = name.substr(0, 64);
+    return *std::ranges::min_element(names, {}, [name](std::string_view other) { return edit_distance(name, other); });
+}
+
 void TomlTable::refuse_unknown(std::span<const Key> keys) {
+    std::vector<std::string_view> names;
+    for (const Key& key : keys) names.push_back(key.name);
     for (std::size_t i = 0; i < table_.names.size(); ++i) {
         const std::string_view name = table_.names[i];
         if (std::ranges::find(keys, name, &Key::name) != keys.end()) continue;
         std::string known;
         for (const Key& key : keys) known += fmt::format("{}{}", known.empty() ? "" : ", ", key.name);
-        misspelt_.push_back(nearest_key(name.substr(0, 64), keys));
+        misspelt_.push_back(nearest_name(name, names));
         mistakes_.list.push_back(
             {table_.items[i].line, fmt::format("{}unknown key {}; the nearest one is \"{}\" of {}", before(),
                                                in_quotes(path(name)), misspelt_.back(), known)});

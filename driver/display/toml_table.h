@@ -39,6 +39,9 @@ struct Key {
     Kinds known_to = kAllKinds;  ///< and kinds that may have it.
 };
 
+/// The one of `names`, which are some, with the fewest letters that are another, missing or too many.
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> names);
+
 /// What is wrong with a file so far.
 class Mistakes {
 public:

@@ -1,8 +1,8 @@
 // What the numbers of `xorvox bench` are made of.
 #include <vector>
 
+#include "sim/canvas.h"
 #include "tests/catch.h"
-#include "tools/bench/canvas.h"
 #include "tools/bench/floor.h"
 #include "tools/bench/race.h"
 #include "tools/bench/result.h"
@@ -88,7 +88,7 @@ TEST_CASE("a broken line ends, and is as long drawn as left out, whatever its co
     constexpr double kDashes[] = {9.0, 6.0};
     for (int i = 1; i <= 300; ++i) {
         const glm::dvec2 points[] = {{5.0, 5.5}, {5.0 + 1.37 * i, 5.5}, {450.0, 5.5}};
-        Canvas canvas(460, 11, {255, 255, 255});
+        sim::Canvas canvas(460, 11, {255, 255, 255});
         canvas.line(points, 1.0, {0, 0, 0}, kDashes);
         std::size_t ink = 0;
         for (std::size_t x = 0; x < 460; ++x) ink += canvas.image().rgb[3 * (5 * 460 + x)] < 128 ? 1u : 0u;

@@ -1,6 +1,7 @@
 // Firmware of a display of 8 × 8 × 8 voxels whose link is the golden conversation: it answers every packet to the
-// letter and shows the pictures that were sent, or ends with status 1. Then the same slices turn: it follows the index
-// pulses, lights each slice in its place and dims the bright one, and goes dark when the pulses stop.
+// letter and shows the pictures that were sent, or ends with status 1. Then it scans them out over pins. Then the same
+// slices turn: it follows the index pulses, lights each slice in its place and dims the bright one, and goes dark when
+// the pulses stop.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -9,6 +10,7 @@
 #include "driver/device/device.h"
 #include "driver/device/scan_control.h"
 #include "golden_conversation.h"
+#include "tests/embedded/scan.h"
 #include "tests/embedded/semihosting.h"
 
 int run_firmware();
@@ -156,7 +158,9 @@ int run_firmware() {
         if (step.kind == '|') display_device.boundary(now_ns);
     }
     if (!shows_frame_2()) return fail("the picture differs\n");
+    if (const char* wrong = scan_out(display_device, scan_control, now_ns)) return fail(wrong);
     if (const char* wrong = turn(now_ns)) return fail(wrong);
-    semihosting::print("the golden conversation went to the letter, and the slices to their places\n");
+    semihosting::print(
+        "the golden conversation went to the letter, the layers to their pins, and the slices to their places\n");
     return 0;
 }

@@ -117,9 +117,9 @@ std::pair<UniqueLink, UniqueLink> connect(Rig::Over over) {
     return {std::move(*host_end), std::move(device_end)};
 }
 
-sim::Simulator make_simulator(const DisplayDescription& display, Link link, const sim::Misbuild& misbuild) {
+sim::Simulator make_simulator(const DisplayDescription& display, Link link, const sim::Faults& broken) {
     sim::SimulatorOptions options;
-    options.misbuild = misbuild;
+    options.faults = broken;
     auto simulator = sim::Simulator::make(display, link, options);
     if (!simulator) throw std::runtime_error(simulator.error().message);
     return std::move(*simulator);
@@ -133,16 +133,15 @@ host::SessionOptions patient() {
 
 }  // namespace
 
-Rig::Rig(const DisplayDescription& display, Over over, const transport::FaultOptions& faults,
-         const sim::Misbuild& misbuild)
-    : Rig(display, connect(over), over == Over::Tcp, faults, misbuild) {}
+Rig::Rig(const DisplayDescription& display, Over over, const transport::FaultOptions& faults, const sim::Faults& broken)
+    : Rig(display, connect(over), over == Over::Tcp, faults, broken) {}
 
 Rig::Rig(const DisplayDescription& display, std::pair<UniqueLink, UniqueLink> ends, bool in_kernel,
-         const transport::FaultOptions& faults, const sim::Misbuild& misbuild)
+         const transport::FaultOptions& faults, const sim::Faults& broken)
     : host_end_(transport::with_faults(std::move(ends.first), faults)),
       device_end_(std::move(ends.second)),
       in_kernel_(in_kernel),
-      simulator_(make_simulator(display, device_end_.get(), misbuild)),
+      simulator_(make_simulator(display, device_end_.get(), broken)),
       session_(host_end_.get(), display, patient()) {}
 
 void Rig::look() {

@@ -56,8 +56,9 @@ class Rig {
 public:
     enum class Over { Loopback, Tcp };
 
+    /// `faults` are those of the link, as the host sees it; `broken` is what is wrong with the display.
     Rig(const DisplayDescription& display, Over over, const transport::FaultOptions& faults = {},
-        const sim::Misbuild& misbuild = {});
+        const sim::Faults& broken = {});
 
     /// Sends the frame and moves both ends until it is presented or the session has failed. After every step what is
     /// shown is dark or one of the frames sent, whole; `whole()` says so. True when it was presented.
@@ -70,7 +71,7 @@ public:
 
 private:
     Rig(const DisplayDescription& display, std::pair<UniqueLink, UniqueLink> ends, bool in_kernel,
-        const transport::FaultOptions& faults, const sim::Misbuild& misbuild);
+        const transport::FaultOptions& faults, const sim::Faults& broken);
     void look();
 
     UniqueLink host_end_;

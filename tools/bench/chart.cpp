@@ -7,11 +7,17 @@
 
 #include <fmt/format.h>
 
-#include "tools/bench/canvas.h"
+#include "sim/canvas.h"
 #include "tools/bench/result.h"
 
 namespace xorvox::tools {
 namespace {
+
+using sim::Canvas;
+using sim::Color;
+using sim::Dashes;
+using sim::text_height;
+using sim::text_width;
 
 constexpr Color kPaper{255, 255, 255};
 constexpr Color kInk{40, 40, 40};

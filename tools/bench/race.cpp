@@ -11,12 +11,6 @@ double wall_ms() {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double processor_ms() {
-    timespec used = {};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-    return static_cast<double>(used.tv_sec) * 1e3 + static_cast<double>(used.tv_nsec) * 1e-6;
-}
-
 void run_once(Runner& runner) {
     const double cpu_start_ms = processor_ms();
     const double start_ms = wall_ms();
@@ -40,6 +34,12 @@ std::size_t planned_runs(const std::function<void()>& work, const Pace& pace) {
 }
 
 }  // namespace
+
+double processor_ms() {
+    timespec used = {};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) * 1e3 + static_cast<double>(used.tv_nsec) * 1e-6;
+}
 
 double median(std::vector<double> numbers) {
     if (numbers.empty()) return 0.0;

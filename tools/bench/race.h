@@ -12,6 +12,9 @@ namespace xorvox::tools {
 /// The middle one of `numbers`, or the mean of the two middle ones; 0 when there are none.
 double median(std::vector<double> numbers);
 
+/// What all threads of this program have taken of the processors so far.
+double processor_ms();
+
 /// A work that is timed again and again, and how long it took each time.
 struct Runner {
     explicit Runner(std::function<void()> the_work) : work(std::move(the_work)) {}

@@ -116,7 +116,7 @@ constexpr ModulationConfig modulation_config(const DisplayDescription& display) 
     // A HUB75 panel takes its upper and its lower half at the same time; the layers of a cube are bits in the same
     // chain.
     std::uint64_t shifts = most / (scan.driver == DriverChip::Hub75 ? 2 : 1) / scan.row_groups;
-    if (scan.driver == DriverChip::ShiftRegister595) shifts += display.slices;
+    if (scan.driver == DriverChip::ShiftRegister595) shifts = shifts * channel_count(display.format) + display.slices;
     config.shift_ns = (shifts * 1'000'000'000 + scan.pixel_clock_hz - 1) / scan.pixel_clock_hz;
     return config;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -20,11 +21,15 @@ void check_place(const glm::dvec3& place, double x, double y, double z) {
     CHECK(glm::distance(place, glm::dvec3(x, y, z)) < 1e-12);
 }
 
+sim::Faults with(std::string_view fault) {
+    return {{sim::parse_fault(fault).value()}};
+}
+
 /// Where the only lit pixel of a page shows.
-sim::Flash only_flash(const DisplayDescription& display, const Pixel& pixel, const sim::Misbuild& misbuild = {}) {
+sim::Flash only_flash(const DisplayDescription& display, const Pixel& pixel, const sim::Faults& faults = {}) {
     std::vector<std::byte> page = dark_page(display);
     set_pixel(display, page, pixel, 1);
-    const sim::LightField field = sim::expose(display, page, 255, misbuild);
+    const sim::LightField field = sim::expose(display, page, 255, faults);
     REQUIRE(field.flashes.size() == 1);
     return field.flashes[0];
 }
@@ -358,39 +363,39 @@ TEST_CASE("of a large dark page every lit pixel is found, and none beyond the ro
 
 TEST_CASE("swapped planes trade places") {
     const DisplayDescription display = stack_of(2, 2, 4);
-    const sim::Misbuild misbuild{.swap_a = 0, .swap_b = 3};
-    CHECK(only_flash(display, {.slice = 0}, misbuild).place_mm == only_flash(display, {.slice = 3}).place_mm);
-    CHECK(only_flash(display, {.slice = 3}, misbuild).place_mm == only_flash(display, {.slice = 0}).place_mm);
-    CHECK(only_flash(display, {.slice = 1}, misbuild).place_mm == only_flash(display, {.slice = 1}).place_mm);
+    const sim::Faults faults = with("swapped-slices:slice=0,other=3");
+    CHECK(only_flash(display, {.slice = 0}, faults).place_mm == only_flash(display, {.slice = 3}).place_mm);
+    CHECK(only_flash(display, {.slice = 3}, faults).place_mm == only_flash(display, {.slice = 0}).place_mm);
+    CHECK(only_flash(display, {.slice = 1}, faults).place_mm == only_flash(display, {.slice = 1}).place_mm);
 }
 
 TEST_CASE("a mirrored panel's columns run the other way") {
     const DisplayDescription display = rotor_of(6, 2, 5);
-    const sim::Misbuild misbuild{.mirrored_panel = 1};
+    const sim::Faults faults = with("mirrored:panel=1");
     const Pixel left{.slice = 2, .panel = 1, .row = 1, .column = 1};
     const Pixel right{.slice = 2, .panel = 1, .row = 1, .column = 4};
     const Pixel other{.slice = 2, .panel = 0, .row = 1, .column = 1};
-    CHECK(only_flash(display, left, misbuild).place_mm == only_flash(display, right).place_mm);
-    CHECK(only_flash(display, other, misbuild).place_mm == only_flash(display, other).place_mm);
+    CHECK(only_flash(display, left, faults).place_mm == only_flash(display, right).place_mm);
+    CHECK(only_flash(display, other, faults).place_mm == only_flash(display, other).place_mm);
 }
 
 TEST_CASE("points of a string can be swapped, and counted from the wrong one") {
     const DisplayDescription display = points_of();
-    const auto place = [&](std::uint32_t point, const sim::Misbuild& misbuild = {}) {
-        return only_flash(display, {.row = point / 5, .column = point % 5}, misbuild).place_mm;
+    const auto place = [&](std::uint32_t point, const sim::Faults& faults = {}) {
+        return only_flash(display, {.row = point / 5, .column = point % 5}, faults).place_mm;
     };
-    CHECK(place(2, {.swap_a = 2, .swap_b = 8}) == place(8));
-    CHECK(place(8, {.swap_a = 2, .swap_b = 8}) == place(2));
-    CHECK(place(0, {.phase_slices = -1}) == place(9));
-    CHECK(place(4, {.phase_slices = 1}) == place(5));
-    CHECK(place(6, {.mirrored_panel = 0}) == place(8));
+    CHECK(place(2, with("swapped-slices:slice=2,other=8")) == place(8));
+    CHECK(place(8, with("swapped-slices:slice=2,other=8")) == place(2));
+    CHECK(place(0, with("phase:slices=-1")) == place(9));
+    CHECK(place(4, with("phase:slices=1")) == place(5));
+    CHECK(place(6, with("mirrored:panel=0")) == place(8));
 }
 
 TEST_CASE("a swept plane that is late is one slice higher, and at the top on its way down") {
     const auto profile = GENERATE(MotionProfile::Constant, MotionProfile::Sine, MotionProfile::Table);
     const DisplayDescription display = swept_of(2, 2, 6, profile);
     for (std::uint32_t slice = 0; slice < 6; ++slice) {
-        const double late = only_flash(display, {.slice = slice}, {.phase_slices = 1}).place_mm.z;
+        const double late = only_flash(display, {.slice = slice}, with("phase:slices=1")).place_mm.z;
         const double next = only_flash(display, {.slice = std::min(slice + 1, 5u)}).place_mm.z;
         CHECK(late == Approx(next).margin(1e-9));
     }
@@ -399,18 +404,18 @@ TEST_CASE("a swept plane that is late is one slice higher, and at the top on its
 TEST_CASE("a helix whose index is off by a slice is a slice of height too low") {
     const DisplayDescription display = helix_of(4, 3, 5, 2);
     for (std::uint32_t slice = 0; slice < 5; ++slice) {
-        const double late = only_flash(display, {.slice = slice}, {.phase_slices = 1}).place_mm.z;
+        const double late = only_flash(display, {.slice = slice}, with("phase:slices=1")).place_mm.z;
         CHECK(late == Approx(only_flash(display, {.slice = (slice + 1) % 5}).place_mm.z).margin(1e-9));
     }
 }
 
 TEST_CASE("an index mark that is off by a slice turns everything by a slice") {
     const DisplayDescription display = rotor_of(6, 2, 5);
-    const sim::Misbuild misbuild{.phase_slices = 1};
+    const sim::Faults faults = with("phase:slices=1");
     for (std::uint32_t slice = 0; slice < 5; ++slice) {
         const Pixel here{.slice = slice, .panel = 0, .row = 1, .column = 5};
         const Pixel next{.slice = (slice + 1) % 5, .panel = 0, .row = 1, .column = 5};
-        const glm::dvec3 place = only_flash(display, here, misbuild).place_mm;
+        const glm::dvec3 place = only_flash(display, here, faults).place_mm;
         CHECK(glm::distance(place, only_flash(display, next).place_mm) < 1e-12);
     }
 }

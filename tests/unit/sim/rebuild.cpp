@@ -152,12 +152,12 @@ TEST_CASE("a display put together wrongly is not rebuilt as sent") {
         const sim::DisplaySamples samples(display);
         const Sent sent(display, 2);
         const sim::Rebuilt truth = samples.faithful(sent.codes);
-        const auto rebuilt_with = [&](const sim::Misbuild& misbuild) {
-            return samples.rebuild(sim::expose(display, sent.page, 255, misbuild));
+        const auto rebuilt_with = [&](std::string_view fault) {
+            return samples.rebuild(sim::expose(display, sent.page, 255, {{sim::parse_fault(fault).value()}}));
         };
-        CHECK_FALSE((rebuilt_with({.swap_a = 0, .swap_b = 1}) == truth));
-        CHECK_FALSE((rebuilt_with({.mirrored_panel = 0}) == truth));
-        CHECK_FALSE((rebuilt_with({.phase_slices = 1}) == truth));
+        CHECK_FALSE((rebuilt_with("swapped-slices:slice=0,other=1") == truth));
+        CHECK_FALSE((rebuilt_with("mirrored") == truth));
+        CHECK_FALSE((rebuilt_with("phase:slices=1") == truth));
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "driver/display/toml.h"
 #include "driver/wire/messages.h"
+#include "sim/make_sim.h"
 #include "tests/catch.h"
 #include "tests/unit/sim/displays.h"
 #include "transport/loopback.h"
@@ -18,6 +19,7 @@ namespace xorvox {
 namespace {
 
 using namespace test;
+using sim::make_sim;
 
 constexpr std::uint64_t kCycle_ns = 10'000'000;  // stack_of turns over 100 times a second
 
@@ -123,35 +125,26 @@ TEST_CASE("brightness and blanking by the host change the light") {
     CHECK(bench.simulator.light().flashes.empty());
 }
 
-TEST_CASE("a misbuilt simulator shows the same frame elsewhere") {
-    Bench bench;
-    sim::SimulatorOptions options;
-    options.misbuild.mirrored_panel = 0;
-    auto mirrored = sim::Simulator::make(bench.display, bench.ends.second.get(), options);
-    REQUIRE(mirrored.has_value());
-    bench.send(wire::HelloRequest{});
-    bench.send_frame(1, bench.page_with(0));
-    (void)mirrored->poll(1);
-    (void)mirrored->poll(kCycle_ns);
-    REQUIRE(mirrored->light().flashes.size() == 1);
-    CHECK(mirrored->light().flashes[0].place_mm.x == 4.0);
+/// What is seen of a frame whose pixel `column` of the first row is lit.
+sim::LightField seen(const sim::MakeSim& sim, std::uint32_t column) {
+    auto rig = sim.build();
+    REQUIRE(rig.has_value());
+    std::vector<std::byte> page = dark_page(rig->display());
+    set_pixel(rig->display(), page, {.column = column}, 0xff);
+    rig->show(page);
+    rig->run_for(cycle_ns(rig->display()));
+    return rig->simulator().light();
 }
 
-/// What is seen of a frame for `display` whose pixel `column` of the first row is lit, if the display is built
-/// otherwise.
+TEST_CASE("a simulator with a fault shows the same frame elsewhere") {
+    auto stack = make_sim().stacked(3).panel(5, 4).format(PixelFormat::Rgb888);
+    CHECK(seen(stack, 0).flashes.at(0).place_mm.x == -4.0);
+    CHECK(seen(stack.fault({.kind = sim::FaultKind::Mirrored}), 0).flashes.at(0).place_mm.x == 4.0);
+}
+
 sim::LightField seen_as_built(const DisplayDescription& display, const DisplayDescription& built,
                               std::uint32_t column) {
-    Bench bench{.display = display};
-    sim::SimulatorOptions options;
-    options.built = built;
-    auto simulator = sim::Simulator::make(display, bench.ends.second.get(), options);
-    REQUIRE(simulator.has_value());
-    CHECK(geometry_digest(simulator->display()) == geometry_digest(display));
-    bench.send(wire::HelloRequest{});
-    bench.send_frame(1, bench.page_with(column));
-    (void)simulator->poll(1);
-    (void)simulator->poll(simulator->next_boundary_ns());
-    return simulator->light();
+    return seen(make_sim().display(display).built_like(built), column);
 }
 
 TEST_CASE("light is where the display as it is built has its pixels") {

@@ -1,11 +1,11 @@
-// Font: an alphabet of pixels for charts.
+// Font: an alphabet of pixels for charts and legends.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <string_view>
 
-namespace xorvox::tools {
+namespace xorvox::sim {
 
 inline constexpr int kGlyphWidth = 5;    ///< Pixels.
 inline constexpr int kGlyphAdvance = 6;  ///< From letter to letter.
@@ -18,4 +18,4 @@ using Glyph = std::array<std::string_view, kGlyphHeight>;
 /// Letters, digits and . , : - _ + = / ( ); an empty box for anything else.
 const Glyph& glyph(char letter);
 
-}  // namespace xorvox::tools
+}  // namespace xorvox::sim

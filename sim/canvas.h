@@ -10,7 +10,7 @@
 
 #include "sim/image.h"
 
-namespace xorvox::tools {
+namespace xorvox::sim {
 
 /// Red, green, blue of sRGB.
 using Color = std::array<std::uint8_t, 3>;
@@ -29,6 +29,8 @@ public:
     void disc(glm::dvec2 center, double radius, Color color);
     /// With sides of 2 · `radius`.
     void square(glm::dvec2 center, double radius, Color color);
+    /// From corner to corner.
+    void box(glm::dvec2 lower, glm::dvec2 upper, Color color);
     /// With diagonals of 2 · `radius`.
     void diamond(glm::dvec2 center, double radius, Color color);
     /// `text` with the left end of the line that its letters stand on at `at`.
@@ -49,4 +51,4 @@ private:
 int text_width(std::string_view text);
 int text_height();
 
-}  // namespace xorvox::tools
+}  // namespace xorvox::sim

@@ -1,4 +1,4 @@
-#include "tools/bench/canvas.h"
+#include "sim/canvas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "tools/bench/font.h"
+#include "sim/font.h"
 
-namespace xorvox::tools {
+namespace xorvox::sim {
 namespace {
 
 constexpr int kLetterScale = 2;
@@ -97,6 +97,13 @@ void Canvas::square(glm::dvec2 center, double radius, Color color) {
     });
 }
 
+void Canvas::box(glm::dvec2 lower, glm::dvec2 upper, Color color) {
+    paint(lower, upper, color, [&](glm::dvec2 p) {
+        const glm::dvec2 covered = glm::min(p + 0.5, upper) - glm::max(p - 0.5, lower);
+        return std::max(covered.x, 0.0) * std::max(covered.y, 0.0);
+    });
+}
+
 void Canvas::diamond(glm::dvec2 center, double radius, Color color) {
     paint(center - radius, center + radius, color, [&](glm::dvec2 p) {
         const glm::dvec2 away = glm::abs(p - center);
@@ -128,4 +135,4 @@ int text_height() {
     return kLetterScale * kGlyphAscent;
 }
 
-}  // namespace xorvox::tools
+}  // namespace xorvox::sim

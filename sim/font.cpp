@@ -1,9 +1,9 @@
-#include "tools/bench/font.h"
+#include "sim/font.h"
 
 #include <algorithm>
 #include <iterator>
 
-namespace xorvox::tools {
+namespace xorvox::sim {
 namespace {
 
 struct Letter {
@@ -95,4 +95,4 @@ const Glyph& glyph(char letter) {
     return known == std::end(kAlphabet) ? kUnknown : known->glyph;
 }
 
-}  // namespace xorvox::tools
+}  // namespace xorvox::sim

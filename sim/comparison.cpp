@@ -1,0 +1,166 @@
+#include "sim/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+
+#include "sim/canvas.h"
+#include "sim/exposed_voxels.h"
+
+namespace xorvox::sim {
+namespace {
+
+constexpr Color kGround{18, 20, 26};
+constexpr Color kInk{225, 228, 235};
+constexpr float kGrey = 0.35f;      ///< Of light that is as it was sent.
+constexpr double kChanged = 0.25;   ///< Part of the light sent.
+constexpr float kMarkShows = 0.9f;  ///< How much of a mark is seen through what stands before it.
+constexpr int kRow = 34;
+constexpr int kMargin = 20;
+
+struct MarkStyle {
+    const char* name;
+    Color color;      ///< In the legend,
+    glm::vec3 light;  ///< and in the picture, linear.
+};
+// Okabe and Ito's, which people of all colour visions can tell apart.
+/// A voxel has the first that holds.
+constexpr std::array<MarkStyle, 4> kMarks{{{"lost", {213, 94, 0}, {1.0f, 0.12f, 0.0f}},
+                                           {"extra", {240, 228, 66}, {0.9f, 0.8f, 0.05f}},
+                                           {"displaced", {86, 180, 233}, {0.08f, 0.45f, 1.0f}},
+                                           {"changed", {204, 121, 167}, {0.75f, 0.12f, 0.5f}}}};
+
+/// Light of its own colour.
+class Fields {
+public:
+    void add(LightField& field, const glm::dvec3& place_mm, const glm::vec3& light) {
+        field.flashes.push_back({place_mm, 0, 0});
+        field.measured.push_back(light);
+        all.flashes.push_back({place_mm, 0, 0});
+        all.measured.push_back(light);
+    }
+
+    LightField sent;
+    LightField faithful;  ///< Lit as it was sent.
+    LightField marked;
+    LightField all;
+    std::array<std::size_t, kMarks.size()> counts{};
+    std::size_t voxels = 0;
+};
+
+bool is_changed(const ExposedVoxel& voxel) {
+    for (int channel = 0; channel < 3; ++channel) {
+        const double away = std::abs(double{voxel.light[channel]} - double{voxel.sent[channel]});
+        const double most = std::max({voxel.sent.x, voxel.sent.y, voxel.sent.z});
+        if (away > kChanged * most) return true;
+    }
+    return false;
+}
+
+Fields fields_of(const Exposure& exposure, std::span<const std::byte> page, std::uint8_t brightness) {
+    Fields fields;
+    for_each_voxel(exposure, page, brightness, [&](const ExposedVoxel& voxel) {
+        if (voxel.sent != glm::vec3(0.0f)) {
+            fields.add(fields.sent, voxel.place_mm, voxel.sent);
+            ++fields.voxels;
+        }
+        const std::array<bool, kMarks.size()> is{voxel.is_lost(), voxel.is_extra(), voxel.outside != glm::vec3(0.0f),
+                                                 !voxel.is_lost() && !voxel.is_extra() && is_changed(voxel)};
+        for (std::size_t mark = 0; mark < is.size(); ++mark) fields.counts[mark] += is[mark];
+        const auto first = static_cast<std::size_t>(std::ranges::find(is, true) - is.begin());
+        if (first == is.size()) {
+            fields.add(fields.faithful, voxel.seen_mm, glm::vec3(kGrey));
+        } else {
+            fields.add(fields.marked, voxel.is_lost() ? voxel.place_mm : voxel.seen_mm, kMarks[first].light);
+        }
+    });
+    return fields;
+}
+
+void blend(Image& under, const Picture& over) {
+    for (std::size_t i = 0; i < over.cover.size(); ++i) {
+        const float part = kMarkShows * over.cover[i];
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            const float mixed = glm::mix(static_cast<float>(under.rgb[c]), static_cast<float>(over.image.rgb[c]), part);
+            under.rgb[c] = static_cast<std::uint8_t>(std::lround(mixed));
+        }
+    }
+}
+
+void paste(Image& sheet, const Image& image, std::uint32_t left, std::uint32_t top) {
+    for (std::uint32_t row = 0; row < image.height; ++row) {
+        std::memcpy(&sheet.rgb[3 * (std::size_t{top + row} * sheet.width + left)],
+                    &image.rgb[3 * std::size_t{row} * image.width], std::size_t{3} * image.width);
+    }
+}
+
+/// Draws the legend, on a canvas if there is one; the rows that it takes.
+int place_legend(Canvas* canvas, int width, int top, const Fields& fields) {
+    int x = kMargin;
+    int rows = 1;
+    const auto entry = [&](const std::string& label, const Color* color) {
+        const int wide = text_width(label) + (color != nullptr ? 28 : 0);
+        if (x > kMargin && x + wide > width - kMargin) {
+            x = kMargin;
+            ++rows;
+        }
+        const int y = top + kRow * rows - (kRow - text_height()) / 2;
+        if (canvas != nullptr) {
+            if (color != nullptr) canvas->box({x, y - text_height()}, {x + 18, y}, *color);
+            canvas->text({x + (color != nullptr ? 28 : 0), y}, label, kInk);
+        }
+        x += wide + 32;
+    };
+    entry(fmt::format("voxels sent: {}", fields.voxels), nullptr);
+    for (std::size_t i = 0; i < kMarks.size(); ++i) {
+        entry(fmt::format("{}: {}", kMarks[i].name, fields.counts[i]), &kMarks[i].color);
+    }
+    return rows;
+}
+
+}  // namespace
+
+Expected<Picture> render_comparison(const Exposure& exposure, std::span<const std::byte> page, std::uint8_t brightness,
+                                    const PictureOptions& options) {
+    const DisplayDescription& display = exposure.display();
+    const Fields fields = fields_of(exposure, page, brightness);
+    PictureOptions in_view = options;
+    in_view.framed = &fields.all;
+    std::array<Picture, 3> views;
+    const LightField* const shown[] = {&fields.sent, &fields.faithful, &fields.marked};
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        Expected<Picture> view = render_perspective(display, *shown[i], in_view);
+        if (!view) return view;
+        views[i] = std::move(*view);
+    }
+    blend(views[1].image, views[2]);
+
+    const std::uint32_t width = 2 * options.width;
+    const int columns = static_cast<int>(width);
+    const int rows = place_legend(nullptr, columns, 0, fields);
+    const std::uint32_t top = kRow;
+    Canvas canvas(width, top + options.height + static_cast<std::uint32_t>(kRow * rows), kGround);
+    const int title = (kRow + text_height()) / 2;
+    canvas.text({kMargin, title}, "sent", kInk);
+    canvas.text({columns / 2 + kMargin, title}, "lit", kInk);
+    (void)place_legend(&canvas, columns, static_cast<int>(top + options.height), fields);
+
+    Picture picture;
+    picture.image = canvas.image();
+    paste(picture.image, views[0].image, 0, top);
+    paste(picture.image, views[1].image, options.width, top);
+    picture.covered = views[1].covered;
+    picture.clipped = views[1].clipped;
+    picture.drawn_by = views[1].drawn_by;
+    return picture;
+}
+
+}  // namespace xorvox::sim

@@ -1,0 +1,1 @@
+xorvox_fuzzer(conditions SOURCES conditions.cpp LINK xorvox::sim)

@@ -1,0 +1,25 @@
+#include "tools/simulation.h"
+
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace xorvox::tools {
+
+Expected<sim::Conditions> read_conditions(const SimulationOptions& options) {
+    sim::Conditions conditions;
+    if (!options.file.empty()) {
+        Expected<sim::Conditions> read = sim::load_conditions(options.file);
+        if (!read) return fail("--sim: " + read.error().message);
+        conditions = std::move(*read);
+    }
+    for (const std::string& text : options.faults) {
+        const Expected<sim::Fault> fault = sim::parse_fault(text);
+        if (!fault) return fail("--fault: " + fault.error().message);
+        conditions.faults.list.push_back(*fault);
+    }
+    return conditions;
+}
+
+}  // namespace xorvox::tools

@@ -1,0 +1,13 @@
+// Simulation: how a display in this program behaves, from the command line.
+#pragma once
+
+#include "sim/conditions.h"
+#include "tools/commands.h"
+#include "voxelizer/error.h"
+
+namespace xorvox::tools {
+
+/// What --sim says, and after that what each --fault adds. Reads the file.
+Expected<sim::Conditions> read_conditions(const SimulationOptions& options);
+
+}  // namespace xorvox::tools
