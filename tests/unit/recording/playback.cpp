@@ -85,6 +85,19 @@ TEST_CASE("played as it was recorded, packets are the same bit for bit and at th
     CHECK(playback.last_present_at_ns() == 9 * 20'000'000 + 5'000'000);
 }
 
+TEST_CASE("a frame is to be shown when it asked for, else when it was whole") {
+    Recorded recorded;
+    for (const std::uint64_t after_ns : {std::uint64_t{0}, std::uint64_t{5'000'000}}) {
+        sim::RecordingReader reader = recorded.record({.present_after_ns = after_ns});
+        sim::RecordedFrames frames(reader, recorded.display);
+        for (std::uint64_t i = 1; i <= 9; ++i) {
+            REQUIRE(frames.next() == Status::Ok);
+            CHECK(frames.time_ns() == i * 20'000'000);
+            CHECK(frames.shown_ns() == frames.time_ns() + after_ns);
+        }
+    }
+}
+
 TEST_CASE("at twice the speed, packets come and frames ask to be presented in half the time") {
     Recorded recorded;
     sim::RecordingReader reader = recorded.record({.present_after_ns = 5'000'000});
