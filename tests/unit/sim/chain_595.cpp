@@ -59,7 +59,7 @@ struct Cube {
         display.scan.msb_first = msb_first;
         display.scan.layers_first = layers_first;
         model.emplace(display, device::ShiftRegisterPins{},
-                      [this](const sim::Strobe& strobe) { strobes.push_back(seen_strobe(display, strobe)); });
+                      [this](const sim::Strobe& strobe) { strobes.push_back(lit_rows(display, strobe)); });
         hand.emplace([this](std::uint64_t time_ns, LineMask levels,
                             LineMask changed) { model->on_pins(time_ns, levels, changed); },
                      sim::line(kEnable));
@@ -72,14 +72,14 @@ struct Cube {
         hand->pulse(kLatch);
     }
     /// What is lit while the outputs are enabled once.
-    std::vector<SeenStrobe> flash() {
+    std::vector<LitRows> flash() {
         hand->low(kEnable);
         hand->high(kEnable);
         return std::exchange(strobes, {});
     }
 
     DisplayDescription display;
-    std::vector<SeenStrobe> strobes;
+    std::vector<LitRows> strobes;
     std::optional<sim::Cube595> model;
     std::optional<Hand> hand;
 };
@@ -218,9 +218,9 @@ TEST_CASE("the LEDs of a pixel follow each other in the order of their channels"
     DisplayDescription display = stack_of(1, 2, 1, PixelFormat::Rgb111);
     display.scan.driver = DriverChip::ShiftRegister595;
     display.scan.color_order = {'g', 'b', 'r'};
-    std::vector<SeenStrobe> strobes;
+    std::vector<LitRows> strobes;
     sim::Cube595 cube(display, device::ShiftRegisterPins{},
-                      [&](const sim::Strobe& strobe) { strobes.push_back(seen_strobe(display, strobe)); });
+                      [&](const sim::Strobe& strobe) { strobes.push_back(lit_rows(display, strobe)); });
     Hand hand([&](std::uint64_t time_ns, LineMask levels, LineMask changed) { cube.on_pins(time_ns, levels, changed); },
               sim::line(kEnable));
     for (const char bit : std::string_view("1000101")) {  // Pixel 1: r b g, pixel 0: r b g, the layer.
@@ -275,6 +275,6 @@ TEST_CASE("a latch while a cube is lit shows as a ghost", "[sim][595]") {
     const std::uint64_t latched = cube.hand->time_ns() - 10;
     cube.hand->high(kEnable);
     REQUIRE(cube.strobes.size() == 2);
-    CHECK(cube.strobes[0] == SeenStrobe{on, latched, 0, 0, 0, 0, "0.0:10 0.1:00"});
-    CHECK(cube.strobes[1] == SeenStrobe{latched, cube.hand->time_ns(), 0, 0, 1, 0, "0.0:01 0.1:00"});
+    CHECK(cube.strobes[0] == LitRows{on, latched, 0, 0, 0, 0, "0.0:10 0.1:00"});
+    CHECK(cube.strobes[1] == LitRows{latched, cube.hand->time_ns(), 0, 0, 1, 0, "0.0:01 0.1:00"});
 }

@@ -1,6 +1,7 @@
 // Strobes by pins, and the pins themselves.
 #include <algorithm>
 #include <memory>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "driver/display/toml.h"
 #include "sim/cube_595.h"
 #include "sim/hub75_panels.h"
+#include "sim/led_matrix.h"
 #include "sim/scan_out.h"
 #include "tests/catch.h"
 #include "tests/unit/sim/displays.h"
@@ -31,7 +33,7 @@ constexpr LineMask kEnable = 0b100;
 struct Rig {
     explicit Rig(const DisplayDescription& of) : display(of) {
         auto made = sim::make_edge_scan(
-            display, [this](const sim::Strobe& strobe) { strobes.push_back(seen_strobe(display, strobe)); },
+            display, [this](const sim::Strobe& strobe) { strobes.push_back(lit_rows(display, strobe)); },
             [this](std::uint64_t time_ns, LineMask levels, LineMask changed) {
                 pins.push_back({time_ns, levels, changed});
             });
@@ -44,7 +46,7 @@ struct Rig {
     }
 
     DisplayDescription display;
-    std::vector<SeenStrobe> strobes;
+    std::vector<LitRows> strobes;
     std::vector<PinChange> pins;
     std::vector<std::byte> page;
     std::unique_ptr<sim::ScanOut> scan;
@@ -71,7 +73,7 @@ DisplayDescription small_panel() {
 std::string lit_when_enabled(const DisplayDescription& display, const std::vector<PinChange>& pins) {
     std::string bits;
     const auto sink = [&](const sim::Strobe& strobe) {
-        std::istringstream rows(seen_strobe(display, strobe).bits);
+        std::istringstream rows(lit_rows(display, strobe).bits);
         for (std::string row; rows >> row;) bits += row.substr(row.find(':'));
     };
     std::unique_ptr<sim::PinModel> model;
@@ -136,7 +138,7 @@ TEST_CASE("strobes have the frame and the slice of the order that lit them", "[s
     rig.light(4, 50'000, 150'000, 8);  // In the middle of a strobe.
     rig.scan->run_until(200'000);
     REQUIRE(rig.strobes.size() > 4);
-    for (const SeenStrobe& strobe : rig.strobes) {
+    for (const LitRows& strobe : rig.strobes) {
         const bool first = strobe.on_ns < 50'000;
         CHECK(strobe.slice == (first ? 3 : 4));
         CHECK(strobe.frame == (first ? 7 : 8));
@@ -170,6 +172,43 @@ TEST_CASE("a dark order ends light at once and leaves no row selected", "[sim][e
         CHECK(rig.strobes.back().off_ns <= middle);
         CHECK((rig.pins.back().levels & kEnable) != 0);
         CHECK(lit_when_enabled(display, rig.pins).find('1') == std::string::npos);
+    }
+}
+
+TEST_CASE("models take whatever comes, and give strobes in order", "[sim][edges]") {
+    DisplayDescription matrix = rotor_of(3, 6, 4, PixelFormat::Rgb111);
+    matrix.scan.row_groups = 6;
+    for (const DisplayDescription& display : {small_cube(), small_panel(), matrix}) {
+        std::uint64_t last_on_ns = 0;
+        std::size_t strobes = 0;
+        const auto sink = [&](const sim::Strobe& strobe) {
+            ++strobes;
+            REQUIRE(strobe.off_ns > strobe.on_ns);
+            REQUIRE(strobe.on_ns >= last_on_ns);
+            REQUIRE(strobe.row_group < display.scan.row_groups);
+            REQUIRE(strobe.slice < display.slices);
+            (void)lit_rows(display, strobe);
+            last_on_ns = strobe.on_ns;
+        };
+        std::unique_ptr<sim::PinModel> model;
+        switch (display.scan.driver) {
+            case DriverChip::Hub75:
+                model = std::make_unique<sim::Hub75Panels>(display, device::Hub75Pins{}, sink);
+                break;
+            case DriverChip::ShiftRegister595:
+                model = std::make_unique<sim::Cube595>(display, device::ShiftRegisterPins{}, sink);
+                break;
+            default: model = std::make_unique<sim::LedMatrix>(display, device::MatrixPins{}, sink);
+        }
+        std::mt19937_64 random(3);
+        LineMask levels = random();
+        model->on_pins(0, levels, ~LineMask{0});
+        for (std::uint64_t step = 1; step < 20'000; ++step) {
+            const LineMask next = random() % 2 == 0 ? random() : levels ^ (LineMask{1} << random() % 20);
+            model->on_pins(step / 3, next, next ^ levels);
+            levels = next;
+        }
+        CHECK(strobes > 100);
     }
 }
 

@@ -15,6 +15,7 @@
 #include "driver/display/timing.h"
 #include "driver/display/toml.h"
 #include "sim/exposure.h"
+#include "sim/make_sim.h"
 #include "sim/scan_out.h"
 #include "tests/catch.h"
 #include "tests/unit/sim/displays.h"
@@ -60,8 +61,8 @@ class Both {
 public:
     explicit Both(const DisplayDescription& display)
         : display_(display),
-          seen_light_(display, display, {}, {}, 0, std::uint64_t{1} << 62),
-          pin_light_(display, display, {}, {}, 0, std::uint64_t{1} << 62),
+          seen_light_(display, display, {}, 0, std::uint64_t{1} << 62),
+          pin_light_(display, display, {}, 0, std::uint64_t{1} << 62),
           strobes_(sim::make_strobe_scan(display, [this](const sim::Strobe& strobe) {
               by_orders_.push_back(compared(display_, strobe));
               seen_light_.add(strobe);
@@ -178,6 +179,10 @@ DisplayDescription cube(PixelFormat format) {
 DisplayDescription chained(PixelFormat format) {
     DisplayDescription display = rotor_of(12, 16, 9, format, 3);
     display.name = DisplayName("chained");
+    for (std::uint32_t p = 0; p < 3; ++p) {
+        display.panels[p].offset_mm = 30.0;
+        display.panels[p].angle_deg = 120.0 * p;
+    }
     display.panels[0].columns = 19;
     display.panels[0].chain_position = 1;
     display.panels[2].columns = 7;
@@ -313,4 +318,36 @@ TEST_CASE("edges and strobes agree on a swept plane", "[sim][fidelities]") {
     display.motion.dead_zone = 0.1;
     display.scan = chained(PixelFormat::Rgb332).scan;
     CHECK(agree(display, 40, 11) > 100);
+}
+
+TEST_CASE("edges and strobes agree on what the whole simulator shows, however its rotor turns", "[sim][fidelities]") {
+    const auto candle = load_display("candle");
+    REQUIRE(candle);
+    DisplayDescription half_turns = rotor_of(13, 8, 5, PixelFormat::Rgb111, 1);
+    half_turns.sweep_deg = 180.0;
+    half_turns.panels[0].offset_mm = 0.0;
+    half_turns.scan = chained(PixelFormat::Rgb111).scan;
+    half_turns.sync.index = IndexSource::Pulses;
+    DisplayDescription rotor = chained(PixelFormat::Rgb332);
+    rotor.sync.index = IndexSource::Pulses;
+    struct Case {
+        DisplayDescription display;
+        sim::RotorConditions rotor;
+    };
+    for (const Case& one : {Case{*candle, {.jitter = 0.02}}, Case{rotor, {.missed = 0.1, .doubled = 0.1}},
+                            Case{rotor, {.acceleration = -0.1, .stall_s = 0.9}}, Case{half_turns, {.speed = 1.1}}}) {
+        const std::vector<std::byte> page = random_page(one.display, 13);
+        std::vector<std::vector<Compared>> seen(2);
+        for (const sim::Fidelity fidelity : {sim::Fidelity::Strobes, sim::Fidelity::Edges}) {
+            auto rig = sim::make_sim().display(one.display).rotor(one.rotor).fidelity(fidelity).build();
+            INFO((rig ? "" : rig.error().message));
+            REQUIRE(rig);
+            auto& list = seen[fidelity == sim::Fidelity::Edges ? 1 : 0];
+            rig->watch([&](const sim::Strobe& strobe) { list.push_back(compared(one.display, strobe)); });
+            REQUIRE(rig->show(page) != 0);
+            rig->run_for(1'200'000'000);
+        }
+        CHECK(seen[0].size() > 200);
+        CHECK(std::ranges::equal(seen[0], seen[1]));
+    }
 }

@@ -39,7 +39,7 @@ struct Bench {
     explicit Bench(const DisplayDescription& of)
         : display(of),
           model(of, device::Hub75Pins{},
-                [this](const sim::Strobe& strobe) { strobes.push_back(seen_strobe(display, strobe)); }),
+                [this](const sim::Strobe& strobe) { strobes.push_back(lit_rows(display, strobe)); }),
           hand([this](std::uint64_t time_ns, LineMask levels,
                       LineMask changed) { model.on_pins(time_ns, levels, changed); },
                sim::line(kEnable)) {}
@@ -53,7 +53,7 @@ struct Bench {
         hand.low(line);
     }
     void latch() { hand.pulse(kLatch); }
-    std::vector<SeenStrobe> flash() {
+    std::vector<LitRows> flash() {
         hand.low(kEnable);
         hand.high(kEnable);
         return std::exchange(strobes, {});
@@ -66,7 +66,7 @@ struct Bench {
     }
 
     DisplayDescription display;
-    std::vector<SeenStrobe> strobes;
+    std::vector<LitRows> strobes;
     sim::Hub75Panels model;
     Hand hand;
 };
@@ -128,7 +128,7 @@ TEST_CASE("a strobe lasts from output enable's fall to its rise, while the next 
     CHECK(bench.strobes.empty());
     bench.hand.high(kEnable);
     REQUIRE(bench.strobes.size() == 1);
-    CHECK(bench.strobes[0] == SeenStrobe{on, bench.hand.time_ns(), 0, 0, 0, 0, "0.0:1010 0.1:0000"});
+    CHECK(bench.strobes[0] == LitRows{on, bench.hand.time_ns(), 0, 0, 0, 0, "0.0:1010 0.1:0000"});
 }
 
 TEST_CASE("the latch is transparent while it is high", "[sim][hub75]") {
@@ -165,8 +165,8 @@ TEST_CASE("a latch while a row is lit shows as a ghost", "[sim][hub75]") {
     const std::uint64_t latched = bench.hand.time_ns();
     bench.hand.high(kEnable);
     REQUIRE(bench.strobes.size() == 2);
-    CHECK(bench.strobes[0] == SeenStrobe{on, latched, 0, 0, 0, 0, "0.0:1000 0.1:0000"});
-    CHECK(bench.strobes[1] == SeenStrobe{latched, bench.hand.time_ns(), 0, 0, 0, 0, "0.0:0001 0.1:0000"});
+    CHECK(bench.strobes[0] == LitRows{on, latched, 0, 0, 0, 0, "0.0:1000 0.1:0000"});
+    CHECK(bench.strobes[1] == LitRows{latched, bench.hand.time_ns(), 0, 0, 0, 0, "0.0:0001 0.1:0000"});
 }
 
 TEST_CASE("a latch that takes the same bits again does not interrupt the light", "[sim][hub75]") {

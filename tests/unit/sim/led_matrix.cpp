@@ -18,15 +18,15 @@ struct Bench {
     explicit Bench(const DisplayDescription& of)
         : display(of),
           model(of, device::MatrixPins{},
-                [this](const sim::Strobe& strobe) { strobes.push_back(seen_strobe(display, strobe)); }),
+                [this](const sim::Strobe& strobe) { strobes.push_back(lit_rows(display, strobe)); }),
           hand([this](std::uint64_t time_ns, LineMask levels, LineMask changed) {
               model.on_pins(time_ns, levels, changed);
           }) {}
 
-    std::vector<SeenStrobe> taken() { return std::exchange(strobes, {}); }
+    std::vector<LitRows> taken() { return std::exchange(strobes, {}); }
 
     DisplayDescription display;
-    std::vector<SeenStrobe> strobes;
+    std::vector<LitRows> strobes;
     sim::LedMatrix model;
     Hand hand;
 };
@@ -49,7 +49,7 @@ TEST_CASE("a matrix lights a row group while its line is high", "[sim][matrix]")
     bench.hand.low(1);
     const auto seen = bench.taken();
     REQUIRE(seen.size() == 1);
-    CHECK(seen[0] == SeenStrobe{on, bench.hand.time_ns(), 1, 0, 0, 0, "0.1:010"});
+    CHECK(seen[0] == LitRows{on, bench.hand.time_ns(), 1, 0, 0, 0, "0.1:010"});
 }
 
 TEST_CASE("columns that change while a group is lit show as ghosts", "[sim][matrix]") {

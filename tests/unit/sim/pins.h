@@ -15,7 +15,7 @@ namespace xorvox::test {
 
 /// A strobe with its bits as text: of each panel and each row that is lit a line "panel.row: 0110" a channel, columns
 /// from 0.
-struct SeenStrobe {
+struct LitRows {
     std::uint64_t on_ns = 0;
     std::uint64_t off_ns = 0;
     std::uint32_t row_group = 0;
@@ -24,11 +24,11 @@ struct SeenStrobe {
     std::uint32_t frame = 0;
     std::string bits;
 
-    bool operator==(const SeenStrobe&) const = default;
+    bool operator==(const LitRows&) const = default;
 };
 
-inline SeenStrobe seen_strobe(const DisplayDescription& display, const sim::Strobe& strobe) {
-    SeenStrobe seen{strobe.on_ns, strobe.off_ns, strobe.row_group, strobe.plane, strobe.slice, strobe.frame, {}};
+inline LitRows lit_rows(const DisplayDescription& display, const sim::Strobe& strobe) {
+    LitRows seen{strobe.on_ns, strobe.off_ns, strobe.row_group, strobe.plane, strobe.slice, strobe.frame, {}};
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         const Panel& panel = display.panels[p];
         for (std::uint32_t row = strobe.row_group; row < panel.rows; row += display.scan.row_groups) {
