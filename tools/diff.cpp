@@ -7,6 +7,7 @@
 #include "sim/recording/reader.h"
 #include "tools/commands.h"
 #include "tools/console.h"
+#include "tools/placement.h"
 
 namespace xorvox::tools {
 namespace {
@@ -37,6 +38,11 @@ Expected<bool> diff(const DiffOptions& options) {
     if (!a) return tl::unexpected(a.error());
     Expected<sim::RecordingReader> b = sim::open_recording(options.b);
     if (!b) return tl::unexpected(b.error());
+    for (const sim::RecordingReader* recording : {&*a, &*b}) {
+        if (const auto fits = check_display_fits(*recording->display()); !fits) {
+            return fail(recording->name() + ": " + fits.error().message);
+        }
+    }
     const auto difference = sim::compare_recordings(*a, *b);
     if (!difference) return tl::unexpected(difference.error());
     if (!*difference) {

@@ -102,14 +102,17 @@ Expected<void> play(const PlayOptions& options) {
     std::optional<Error> broken;
     const FrameSource source = [&](const FrameMoment& moment, std::span<std::byte> frame) {
         if (options.frames > 0 && moment.number >= options.frames) return false;
-        glm::dmat4 pose = host::pose_at(*timeline, moment.seconds, middle);
+        // What is recorded does not depend on when the display could show it.
+        const double at_s =
+            options.frames > 0 ? static_cast<double>(moment.number) / stage.display.cycles_per_second : moment.seconds;
+        glm::dmat4 pose = host::pose_at(*timeline, at_s, middle);
         if (options.spin_rpm) {
-            const double angle = glm::radians(moment.seconds * *options.spin_rpm * 6.0);
+            const double angle = glm::radians(at_s * *options.spin_rpm * 6.0);
             const glm::dmat4 one(1.0);
             pose *=
                 glm::translate(one, middle) * glm::rotate(one, angle, {0.0, 0.0, 1.0}) * glm::translate(one, -middle);
         }
-        Expected<void> made = stage.maker->draw(moment.seconds, pose);
+        Expected<void> made = stage.maker->draw(at_s, pose);
         if (made) made = stage.maker->paint(frame, static_cast<std::uint32_t>(moment.number));
         if (!made) broken = made.error();
         return made.has_value();

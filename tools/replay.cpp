@@ -1,4 +1,4 @@
-// replay: a recording to a display: in this program, packet by packet, or at the other end of a link, frame by frame.
+// replay: a recording to a display: packet by packet to one in this program, else frame by frame.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -116,7 +116,7 @@ struct Replayed {
     std::optional<LightSeen> light;
 };
 
-/// In simulated time: the clock goes from boundary to boundary and from packet to packet.
+/// Packet by packet in simulated time: the clock goes from boundary to boundary and from packet to packet.
 Expected<Replayed> replay_in_process(const ReplayOptions& options, const DisplayFile& display,
                                      sim::RecordingReader& reader, Troubles& troubles, io::AtomicFile* png,
                                      sim::RecordingWriter* recording) {
@@ -128,7 +128,7 @@ Expected<Replayed> replay_in_process(const ReplayOptions& options, const Display
     sim::Simulator& simulator = local->simulator;
 
     const std::uint64_t from_ns = to_ns(options.seek_seconds);
-    sim::Playback playback(reader, options.speed.value_or(1.0) > 0.0 ? options.speed.value_or(1.0) : 1.0);
+    sim::Playback playback(reader);
     Replayed replayed;
     Answers& answers = replayed.answers;
     bool counts = from_ns == 0;
@@ -171,6 +171,20 @@ Expected<Replayed> replay_in_process(const ReplayOptions& options, const Display
     return replayed;
 }
 
+void print_heading(const ReplayOptions& options, const DisplayFile& display, const sim::RecordingReader& reader) {
+    const std::size_t frames = reader.frames().size();
+    fmt::print("{}: {} frame{} in {:.3f} s, for {}\n", options.file, thousands(frames), frames == 1 ? "" : "s",
+               static_cast<double>(reader.duration_ns()) * 1e-9, display.name.view());
+}
+
+void print_lit(const ReplayOptions& options, const std::optional<LightSeen>& light) {
+    if (!light) return;
+    const sim::Statistics& seen = light->statistics;
+    fmt::print("lit: {} pixels at {} places, {} outside the display\n", thousands(seen.pixels_lit),
+               thousands(seen.voxels_lit), thousands(seen.light_outside));
+    if (!options.delivery.png.empty()) fmt::print("picture: {}\n", options.delivery.png);
+}
+
 void print_replayed(const ReplayOptions& options, const DisplayFile& display, const sim::RecordingReader& reader,
                     const Replayed& replayed, std::size_t troubles) {
     const Answers& answers = replayed.answers;
@@ -183,17 +197,10 @@ void print_replayed(const ReplayOptions& options, const DisplayFile& display, co
             static_cast<double>(replayed.simulated_ns) * 1e-9, picture_json(options.delivery, replayed.light));
         return;
     }
-    fmt::print("{}: {} frame{} in {:.3f} s, for {}\n", options.file, thousands(reader.frames().size()),
-               reader.frames().size() == 1 ? "" : "s", static_cast<double>(reader.duration_ns()) * 1e-9,
-               display.name.view());
+    print_heading(options, display, reader);
     fmt::print("shown: {} frames, {} given up, {} refused\n", thousands(answers.presented),
                thousands(answers.accepted - std::min(answers.accepted, answers.presented)), thousands(answers.refused));
-    if (replayed.light) {
-        const sim::Statistics& seen = replayed.light->statistics;
-        fmt::print("lit: {} pixels at {} places, {} outside the display\n", thousands(seen.pixels_lit),
-                   thousands(seen.voxels_lit), thousands(seen.light_outside));
-    }
-    if (!options.delivery.png.empty() && replayed.light) fmt::print("picture: {}\n", options.delivery.png);
+    print_lit(options, replayed.light);
 }
 
 /// Gives a stream, at each moment, the frame that the recording had last.
@@ -238,7 +245,7 @@ private:
         Status status = frames_.next();
         while (status == Status::Corrupt) status = frames_.next();  // Noted by check().
         more_ = status == Status::Ok;
-        next_ns_ = frames_.time_ns();
+        next_ns_ = frames_.shown_ns();
     }
     void step() {
         current_.assign(frames_.frame().bytes.begin(), frames_.frame().bytes.end());
@@ -253,29 +260,31 @@ private:
     std::uint64_t begin_ns_ = 0;
     std::vector<std::byte> current_;
     std::uint64_t current_ns_ = 0;
-    bool more_ = false;  ///< frames_ has one after `current_`, whole at next_ns_.
+    bool more_ = false;  ///< frames_ has one after `current_`, to be shown at next_ns_.
     std::uint64_t next_ns_ = 0;
     bool ended_ = false;
 };
 
 Expected<void> replay_over(const ReplayOptions& options, const transport::Address& address, const DisplayFile& display,
-                           sim::RecordingReader& reader, Troubles& troubles, sim::RecordingWriter* recording) {
+                           sim::RecordingReader& reader, Troubles& troubles, io::AtomicFile* png,
+                           sim::RecordingWriter* recording) {
     FrameFeed feed(options, reader, display, troubles);
     if (const auto begun = feed.begin(); !begun) return begun;
     const FrameSource source = [&feed](const FrameMoment& moment, std::span<std::byte> frame) {
         return feed(moment, frame);
     };
-    const auto delivery = deliver_stream(options.delivery, address, display, source, 0.0, nullptr, recording);
+    const auto delivery = deliver_stream(options.delivery, address, display, source, 0.0, png, recording);
     if (!delivery) return tl::unexpected(delivery.error());
     if (options.delivery.json) {
-        fmt::print("{{\"recording\": {}, \"display\": {}, \"to\": {}, \"frames\": {}, \"damaged_places\": {}, {}}}\n",
-                   json_string(options.file), json_string(display.name.view()), json_string(options.delivery.to),
-                   reader.frames().size(), troubles.count(), stream_json(*delivery));
+        fmt::print(
+            "{{\"recording\": {}, \"display\": {}, \"to\": {}, \"frames\": {}, \"damaged_places\": {}, {}, {}}}\n",
+            json_string(options.file), json_string(display.name.view()), json_string(options.delivery.to),
+            reader.frames().size(), troubles.count(), stream_json(*delivery),
+            picture_json(options.delivery, delivery->light));
     } else {
-        fmt::print("{}: {} frame{} in {:.3f} s, for {}\n", options.file, thousands(reader.frames().size()),
-                   reader.frames().size() == 1 ? "" : "s", static_cast<double>(reader.duration_ns()) * 1e-9,
-                   display.name.view());
+        print_heading(options, display, reader);
         print_stream(*delivery);
+        print_lit(options, delivery->light);
     }
     return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();
 }
@@ -302,7 +311,6 @@ Expected<void> replay(const ReplayOptions& options) {
     const Expected<transport::Address> address = transport::parse_address(to.to);
     if (!address) return fail("--to: " + address.error().message);
     if (const auto possible = check_delivery(to, *address, options.file); !possible) return possible;
-    const bool here = address->kind == transport::AddressKind::Loopback;
     Expected<sim::RecordingReader> reader =
         sim::open_recording(options.file, options.keep_going ? sim::Damage::Tolerated : sim::Damage::Refused);
     if (!reader) return tl::unexpected(reader.error());
@@ -329,11 +337,15 @@ Expected<void> replay(const ReplayOptions& options) {
     auto recording = make_recording(to, *display);
     if (!recording) return tl::unexpected(recording.error());
     sim::RecordingWriter* const recorder = *recording ? &**recording : nullptr;
-    if (here) {
-        const auto replayed = replay_in_process(options, *display, *reader, troubles, png ? &*png : nullptr, recorder);
+    io::AtomicFile* const picture = png ? &*png : nullptr;
+    // At another speed the recorded host would not heed what this display has room for.
+    const bool as_recorded = !options.speed || *options.speed == 1.0 || *options.speed == 0.0;
+    if (address->kind == transport::AddressKind::Loopback && as_recorded) {
+        const auto replayed = replay_in_process(options, *display, *reader, troubles, picture, recorder);
         if (!replayed) return tl::unexpected(replayed.error());
         print_replayed(options, *display, *reader, *replayed, troubles.count());
-    } else if (const auto played = replay_over(options, *address, *display, *reader, troubles, recorder); !played) {
+    } else if (const auto played = replay_over(options, *address, *display, *reader, troubles, picture, recorder);
+               !played) {
         return played;
     }
     return finish_recording(to, recorder);

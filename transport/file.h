@@ -1,4 +1,5 @@
-// File: a link that ends in a recording, and one that begins in it.
+// File: a link that ends in a file of packets, and one that begins in it. Recordings with times and both directions are
+// another thing: sim/recording, docs/recordings.md.
 //
 //   bytes 0 … 7: 'X' 'O' 'R' 'V' 'O' 'X' 01 0A      then one frame (transport/framing.h) a packet
 //

@@ -14,6 +14,9 @@ Status RecordedFrames::seek(std::uint64_t time_ns) {
     const Status status = reader_->next(block);
     if (status == Status::Corrupt) damage_ = reader_->damage();
     if (status == Status::Ok) (void)assembler_.take(block.payload, block.offset);
+    // The answer tells the device's clock; it comes soon.
+    while (reader_->next(block) == Status::Ok && block.offset < entry.begin && !clock_.note(block)) {
+    }
     reader_->seek(entry.begin);
     return status;
 }
@@ -28,7 +31,7 @@ Status RecordedFrames::next() {
             time_ns_ = block.time_ns;
             return Status::Ok;
         }
-        if (block.kind != BlockKind::Frame) continue;
+        if (clock_.note(block) || block.kind != BlockKind::Frame) continue;
         const FrameEntry entry = decode_entry(block.payload.first<kFrameEntryBytes>());
         const AssembledFrame& last = assembler_.frame();
         if (last.bytes.empty() || entry.begin != last.begin || entry.digest == frame_digest(last.bytes)) continue;
@@ -38,6 +41,14 @@ Status RecordedFrames::next() {
             reader_->name(), block.offset);
         return Status::Corrupt;
     }
+}
+
+std::uint64_t RecordedFrames::shown_ns() const {
+    const std::uint64_t asked_ns = frame().present_at_ns;
+    if (asked_ns == 0) return time_ns_;
+    const std::uint64_t moment_ns = clock_.recorded_ns(asked_ns);
+    constexpr std::uint64_t kFarthest_ns = 10'000'000'000;  // Beyond, it means nothing, or it wrapped.
+    return moment_ns - time_ns_ < kFarthest_ns ? moment_ns : time_ns_;
 }
 
 }  // namespace xorvox::sim

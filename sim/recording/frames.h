@@ -6,6 +6,7 @@
 
 #include "driver/display/description.h"
 #include "sim/recording/assembler.h"
+#include "sim/recording/device_clock.h"
 #include "sim/recording/reader.h"
 
 namespace xorvox::sim {
@@ -26,6 +27,8 @@ public:
     const AssembledFrame& frame() const { return assembler_.frame(); }
     /// When it was whole, since the first packet.
     std::uint64_t time_ns() const { return time_ns_; }
+    /// When it was to be shown, since the first packet: the moment that it asked for, else when it was whole.
+    std::uint64_t shown_ns() const;
     /// Of the last Corrupt.
     const std::string& damage() const { return damage_; }
     /// See FrameAssembler.
@@ -34,6 +37,7 @@ public:
 private:
     RecordingReader* reader_;
     FrameAssembler assembler_;
+    DeviceClock clock_;
     std::uint64_t time_ns_ = 0;
     std::string damage_;
 };

@@ -23,7 +23,7 @@ Status Playback::seek(std::uint64_t time_ns) {
     packet_.assign(block.payload.begin(), block.payload.end());
     hello_first_ = true;
     // The answer tells the device's clock; it comes soon.
-    while (reader_->next(block) == Status::Ok && block.offset < entry.begin && !note_clock(block)) {
+    while (reader_->next(block) == Status::Ok && block.offset < entry.begin && !clock_.note(block)) {
     }
     reader_->seek(entry.begin);
     return Status::Ok;
@@ -40,22 +40,10 @@ Status Playback::next() {
     for (;;) {
         const Status status = reader_->next(block);
         if (status != Status::Ok) return status;
-        if (note_clock(block) || block.kind != BlockKind::FromHost) continue;
+        if (clock_.note(block) || block.kind != BlockKind::FromHost) continue;
         take(block);
         return Status::Ok;
     }
-}
-
-/// True: it told the device's clock.
-bool Playback::note_clock(const Block& block) {
-    wire::Header header;
-    std::span<const std::byte> payload;
-    wire::Hello hello;
-    const bool told = block.kind == BlockKind::FromDevice &&
-                      wire::decode_packet(block.payload, header, payload) == Status::Ok &&
-                      header.type == wire::PacketType::Hello && wire::decode(payload, hello) == Status::Ok;
-    if (told) device_ahead_ns_ = hello.device_time_ns - block.time_ns;
-    return told;
 }
 
 void Playback::take(const Block& block) {
@@ -68,7 +56,7 @@ void Playback::take(const Block& block) {
     if (wire::decode_packet(block.payload, header, payload) != Status::Ok) return;
     if (header.type != wire::PacketType::FrameBegin || wire::decode(payload, begin) != Status::Ok) return;
     if (begin.present_at_ns == 0) return;
-    const std::uint64_t moment_ns = std::max<std::uint64_t>(replayed_ns(begin.present_at_ns - device_ahead_ns_), 1);
+    const std::uint64_t moment_ns = std::max<std::uint64_t>(replayed_ns(clock_.recorded_ns(begin.present_at_ns)), 1);
     last_present_at_ns_ = std::max(last_present_at_ns_, moment_ns);
     if (moment_ns == begin.present_at_ns) return;
     // Its place is at the same distance from the payload's start in every minor version.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/recording/device_clock.h"
 #include "sim/recording/reader.h"
 #include "voxelizer/status.h"
 
@@ -42,15 +43,14 @@ public:
     const std::string& damage() const { return reader_->damage(); }
 
 private:
-    bool note_clock(const Block& block);
     void take(const Block& block);
     std::uint64_t replayed_ns(std::uint64_t recorded_ns) const;
 
     RecordingReader* reader_;
     double speed_;
-    std::uint64_t begin_ns_ = 0;         ///< Recorded; 0 of this clock.
-    std::uint64_t device_ahead_ns_ = 0;  ///< Of the recorded times; wraps.
-    bool hello_first_ = false;           ///< packet_ is a request that was sent long before.
+    DeviceClock clock_;
+    std::uint64_t begin_ns_ = 0;  ///< Recorded; 0 of this clock.
+    bool hello_first_ = false;    ///< packet_ is a request that was sent long before.
     std::vector<std::byte> packet_;
     std::uint64_t due_ns_ = 0;
     std::uint64_t time_ns_ = 0;

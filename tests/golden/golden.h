@@ -3,6 +3,7 @@
 //
 //   messages.hex       NAME bytes …                one packet of each message
 //   shared_frames.hex  NAME bytes …                each message of driver/host/shared_frames.h, and a segment's head
+//   recording.hex      recording bytes …           a whole recording, sim/recording/format.h
 //   conversation.hex   at NS                       the device's clock
 //                      boundary                    its display's cycle begins anew
 //                      > bytes …   < bytes …       host to device, device to host

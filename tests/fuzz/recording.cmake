@@ -1,0 +1,1 @@
+xorvox_fuzzer(recording SOURCES recording.cpp LINK xorvox::recording)
