@@ -39,16 +39,17 @@ struct OnTheWay {
     double late = 0.0;       ///< Slices after its middle.
 };
 
-/// A pattern of a row that was lit.
+/// A pattern of a row that was lit at a place.
 struct Pattern {
     double light_ns = 0.0;
-    double late = 0.0;    ///< Of its first light.
-    double moment = 0.0;  ///< Sum of light_ns · late.
+    double moment = 0.0;     ///< Sum of light_ns · late.
+    float late = 0.0f;       ///< Of its first light.
+    std::uint32_t bits = 0;  ///< Number in Row::bits.
 
     double mean_late() const { return moment / light_ns; }
 };
 
-/// Light of many patterns, by pixel and channel.
+/// Light of patterns that were too many, by pixel and channel.
 struct Sum {
     double late = 0.0;  ///< Whole slices.
     double light_ns = 0.0;
@@ -58,7 +59,7 @@ struct Sum {
 
 struct Row {
     std::vector<Pattern> patterns;
-    std::vector<std::byte> bits;  ///< Of each pattern.
+    std::vector<std::byte> bits;  ///< All that differ.
     std::vector<Sum> sums;
 };
 
@@ -74,6 +75,7 @@ struct PanelRows {
 struct Exposure::Impl {
     DisplayDescription display;
     DisplayDescription built;
+    Faults faults;
     CyclesAt cycles_at;
     std::uint64_t from_ns;
     std::uint64_t to_ns;
@@ -183,27 +185,39 @@ void Exposure::Impl::add_row(Row& row, const PanelRows& panel, const StrobeRows&
     }
     if (dark) return;
     const std::size_t size = pieces * panel.piece_bytes;
-    const std::byte* known = row.bits.data();
-    for (Pattern& pattern : row.patterns) {
-        bool same = std::abs(late - pattern.late) <= kSamePlace;
-        for (std::uint32_t c = 0; c < pieces; ++c) {
-            same = same && std::memcmp(known + c * panel.piece_bytes, at[c], panel.piece_bytes) == 0;
+    const auto known = static_cast<std::uint32_t>(row.bits.size() / size);
+    const auto is_same = [&](std::uint32_t bits) {
+        const std::byte* of = row.bits.data() + bits * size;
+        for (std::uint32_t c = 0; c < pieces; ++c, of += panel.piece_bytes) {
+            if (std::memcmp(of, at[c], panel.piece_bytes) != 0) return false;
         }
-        known += size;
-        if (!same) continue;
-        pattern.light_ns += light_ns;
-        pattern.moment += light_ns * late;
-        return;
+        return true;
+    };
+    std::uint32_t bits = 0;
+    while (bits < known && !is_same(bits)) ++bits;
+    if (bits < known) {
+        // Most often it is where it was before.
+        for (auto pattern = row.patterns.rbegin(); pattern != row.patterns.rend(); ++pattern) {
+            if (pattern->bits != bits || std::abs(late - double{pattern->late}) > kSamePlace) continue;
+            pattern->light_ns += light_ns;
+            pattern->moment += light_ns * late;
+            return;
+        }
     }
-    if (row.patterns.size() == kMostPatterns) fold(row, panel);
-    row.patterns.push_back({light_ns, late, light_ns * late});
-    for (std::uint32_t c = 0; c < pieces; ++c) row.bits.insert(row.bits.end(), at[c], at[c] + panel.piece_bytes);
+    if (row.patterns.size() == kMostPatterns) {
+        fold(row, panel);
+        bits = 0;
+    }
+    if (bits * size == row.bits.size()) {
+        for (std::uint32_t c = 0; c < pieces; ++c) row.bits.insert(row.bits.end(), at[c], at[c] + panel.piece_bytes);
+    }
+    row.patterns.push_back({light_ns, light_ns * late, static_cast<float>(late), bits});
 }
 
 void Exposure::Impl::fold(Row& row, const PanelRows& panel) const {
-    const std::byte* bits = row.bits.data();
+    const std::size_t size = pieces * panel.piece_bytes;
     for (const Pattern& pattern : row.patterns) {
-        const double late = std::round(pattern.late);
+        const double late = std::round(double{pattern.late});
         auto sum = std::ranges::find(row.sums, late, &Sum::late);
         if (sum == row.sums.end()) {
             row.sums.push_back({.late = late});
@@ -213,16 +227,16 @@ void Exposure::Impl::fold(Row& row, const PanelRows& panel) const {
         sum->light_ns += pattern.light_ns;
         sum->moment += pattern.moment;
         const auto light = static_cast<float>(pattern.light_ns);
+        const std::byte* const bits = row.bits.data() + pattern.bits * size;
         for_each_lit_piece(bits, panel, false, [&](std::uint32_t column, std::uint32_t c, float part) {
             sum->pixels[std::size_t{channels} * column + c] += part * light;
         });
-        bits += pieces * panel.piece_bytes;
     }
     row.patterns.clear();
     row.bits.clear();
 }
 
-/// Patterns that were lit at many places are taken apart once. `mirrored`: the light runs the other way round.
+/// What was lit at many places is taken apart once. `mirrored`: the light runs the other way round.
 void Exposure::Impl::add_anywhere(const Row& row, const PanelRows& panel, bool mirrored,
                                   std::span<glm::vec3> light) const {
     const auto give = [&](std::uint32_t column, std::uint32_t c, float is) {
@@ -234,18 +248,11 @@ void Exposure::Impl::add_anywhere(const Row& row, const PanelRows& panel, bool m
         }
     };
     const std::size_t size = pieces * panel.piece_bytes;
-    std::array<bool, kMostPatterns> taken{};
-    for (std::size_t i = 0; i < row.patterns.size(); ++i) {
-        if (taken[i]) continue;
-        const std::byte* const bits = row.bits.data() + i * size;
-        double light_ns = row.patterns[i].light_ns;
-        for (std::size_t j = i + 1; j < row.patterns.size(); ++j) {
-            if (taken[j] || std::memcmp(bits, row.bits.data() + j * size, size) != 0) continue;
-            taken[j] = true;
-            light_ns += row.patterns[j].light_ns;
-        }
-        const auto lit = static_cast<float>(light_ns * scale);
-        for_each_lit_piece(bits, panel, false,
+    std::array<double, kMostPatterns> light_ns{};
+    for (const Pattern& pattern : row.patterns) light_ns[pattern.bits] += pattern.light_ns;
+    for (std::size_t bits = 0; bits * size < row.bits.size(); ++bits) {
+        const auto lit = static_cast<float>(light_ns[bits] * scale);
+        for_each_lit_piece(row.bits.data() + bits * size, panel, false,
                            [&](std::uint32_t column, std::uint32_t c, float part) { give(column, c, part * lit); });
     }
     for (const Sum& sum : row.sums) {
@@ -284,7 +291,7 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row, const Visit
             light_ns += pattern.light_ns;
             moment += pattern.moment;
             const auto lit = static_cast<float>(pattern.light_ns * scale);
-            for_each_lit_piece(row.bits.data() + by_place[last] * pieces * panel.piece_bytes, panel,
+            for_each_lit_piece(row.bits.data() + pattern.bits * pieces * panel.piece_bytes, panel,
                                as.mirrored && of_levels, [&](std::uint32_t column, std::uint32_t c, float part) {
                                    light[column][static_cast<int>(c)] += part * lit;
                                });
@@ -303,9 +310,9 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row, const Visit
     }
 }
 
-Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
-                   std::uint64_t from_ns, std::uint64_t to_ns, Faults faults)
-    : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns, std::move(faults)})) {
+Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, const Faults& faults,
+                   CyclesAt cycles_at, std::uint64_t from_ns, std::uint64_t to_ns)
+    : impl_(std::make_unique<Impl>(Impl{display, built, faults, std::move(cycles_at), from_ns, to_ns})) {
     assert(to_ns > from_ns);
     Impl& impl = *impl_;
     if (display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0) impl.half_turns = 2;
@@ -349,7 +356,7 @@ void Exposure::for_each_place(std::uint32_t slice, std::uint32_t panel, std::uin
                             .panel = panel,
                             .row = row,
                             .mirrored = half == 1,
-                            .at = static_cast<double>(step) + 0.5,
+                            .at = double{1} * half * impl_->display.slices + lit_slice(slice, impl_->faults) + 0.5,
                             .light = {}};
         impl_->visit_row(as, found, visit);
     }
@@ -378,8 +385,7 @@ LightField Exposure::light() const {
     field.flashes.reserve(flashes);
     field.measured.reserve(flashes);
     for_each_row([&](const ExposedRow& row) {
-        const double swapped = double{1} * lit_slice(row.slice, impl_->faults) - row.slice;
-        const Seats seats(impl_->built, row.panel, row.at + swapped, impl_->faults);
+        const Seats seats(impl_->built, row.panel, row.at, impl_->faults);
         for (std::uint32_t column = 0; column < row.light.size(); ++column) {
             if (row.light[column] == glm::vec3(0.0f)) continue;
             field.flashes.push_back({seats.place_mm(row.row, column), 0, row.slice});

@@ -1,7 +1,7 @@
 // Exposure: what a shutter that is open for a while sees of a display: the light of all strobes in that time, each
 // where the display really was in the middle of the strobe.
 //
-//   Exposure exposure(display, display, [&](std::uint64_t time_ns) { return rotor.cycles_at(time_ns); }, from, to);
+//   Exposure exposure(display, display, {}, [&](std::uint64_t time_ns) { return rotor.cycles_at(time_ns); }, from, to);
 //   scan = make_strobe_scan(display, [&](const Strobe& strobe) { exposure.add(strobe); });
 //   …
 //   render_perspective(display, exposure.light());
@@ -11,10 +11,11 @@
 // emitted_ns() says; what makes levels of codes by itself (Strobe::kLevels) has that in its levels, and counts for its
 // whole length. Of a strobe that the shutter cuts, the part counts that it leaves.
 //
-// Memory. What is kept is rows of pixels: of each row in each slice the different patterns that were lit, each with its
-// time and mean place, where places within an eighth of a slice are one. Frames that stay, or come again, take nothing
-// more: about 100 bytes a row and pattern. Of a row that has had more than 32 of them, light is added up by pixel, and
-// places are told apart by whole slices alone; that takes 12 bytes a pixel for each of these (mono: 4).
+// Memory. What is kept is rows of pixels: of each row in each slice the different patterns of bits that were lit, and
+// for each its light and where that was, where places within an eighth of a slice are one. Frames that stay, or come
+// again, take nothing more: 100 bytes a row, its bits, and 24 bytes for each pattern and place. Of a row that has had
+// 32 of them, light is added up by pixel, and places are told apart by whole slices alone; that takes 12 bytes a pixel
+// for each of these (mono: 4).
 #pragma once
 
 #include <cstddef>
@@ -38,8 +39,8 @@ struct ExposedRow {
     std::uint32_t panel = 0;
     std::uint32_t row = 0;
     bool mirrored = false;  ///< Of half turns: LED `column` as mounted is pixel columns − 1 − column on the wire.
-    /// Where the display was, as Seats' second constructor takes it; the middle of slice s is s + ½, in every second
-    /// half turn S + s + ½.
+    /// Where it was, as Seats' second constructor takes it: the middle of slice s is s + ½, in every second half turn S
+    /// + s + ½. Slices that are swapped (FaultKind::SwappedSlices) are.
     double at = 0.5;
     double late = 0.0;  ///< By how many slices that is after the middle of the slice; before: negative.
     /// Of each LED as mounted; linear, steady full light is 1. Of a mono format all channels are equal. Borrowed for
@@ -55,10 +56,10 @@ public:
 
     /// The shutter is open from `from_ns` to `to_ns`, later. `display` is what the device goes by, and `built` what is
     /// really there (they have the same layout: SimulatorOptions::built); both valid and copied, and what they borrow
-    /// must outlive the exposure. `cycles_at` empty: as declared, from time 0 on. Of `faults`, possible on `built`,
-    /// those of its pose count (sim/faults.h); those of its wiring are in the strobes.
-    Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
-             std::uint64_t from_ns, std::uint64_t to_ns, Faults faults = {});
+    /// must outlive the exposure. Of `faults`, possible on `built`, those of its pose count (sim/faults.h); those of
+    /// its wiring are in the strobes. `cycles_at` empty: as declared, from time 0 on.
+    Exposure(const DisplayDescription& display, const DisplayDescription& built, const Faults& faults,
+             CyclesAt cycles_at, std::uint64_t from_ns, std::uint64_t to_ns);
     Exposure(Exposure&&) noexcept;
     Exposure& operator=(Exposure&&) noexcept;
     ~Exposure();

@@ -1,8 +1,7 @@
 // ScanOut: makes strobes of what the device half orders. Two of them, which give the same light:
 //
-//   strobe_scan   row and plane events by the modulation (driver/device/scan/modulation.h), from the slice's bytes:
-//   fast edge_scan     the device half's own scanner sets pins, and models of the chips behind them say what is lit:
-//   exact
+//   strobe_scan   row and plane events by the modulation (driver/device/scan/modulation.h): fast
+//   edge_scan     the device half's own scanner sets pins, and models of the chips behind them say what is lit
 #pragma once
 
 #include <cstdint>
