@@ -79,6 +79,7 @@ struct Exposure::Impl {
     CyclesAt cycles_at;
     std::uint64_t from_ns;
     std::uint64_t to_ns;
+    Faults faults;
     PixelLight pixels{display};
     bool of_levels = !lit_by_planes(display);
     std::uint32_t channels = channel_count(display.format);

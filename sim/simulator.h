@@ -65,7 +65,8 @@ public:
 
     /// Turns the display on to `now_ns`: a boundary for each whole cycle that began since the last call. Then lets the
     /// device receive what has come, and look at its watchdog. Answers as Device::poll. Where there is a rotor, a sink
-    /// or an account of time, it goes from event to event, a millisecond at most: that takes time in proportion.
+    /// or an account of time, it goes from event to event, a millisecond at most: that takes time in proportion, also
+    /// from 0 to the first call.
     Status poll(std::uint64_t now_ns);
 
     /// From the next order of the device on, gives `sink` all strobes, as the LEDs are lit: with the faults of wiring.

@@ -46,6 +46,7 @@ constexpr Hub75Config hub75_config(const DisplayDescription& display, const Hub7
     config.scan.modulation = modulation_config(display);
     config.scan.slice = slice_config(display);
     config.scan.used = used_lines(display, pins);
+    config.scan.pins = 3 + static_cast<std::uint32_t>(std::bit_width(scan.row_groups - 1u));
     config.pins = pins;
     // What a panel holds and the nearer ones of its chain; the longest of these is a whole chain.
     std::array<std::uint32_t, kMaxPanels> reach{};
@@ -58,6 +59,7 @@ constexpr Hub75Config hub75_config(const DisplayDescription& display, const Hub7
             reach[p] += std::uint32_t{other.columns} * other.rows / 2u / scan.row_groups;
         }
         longest = std::max(longest, reach[p]);
+        if (panel.chain_position == 0) config.scan.pins += 2 * channel_count(display.format);
     }
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         config.connectors[p] = display.panels[p].connector;

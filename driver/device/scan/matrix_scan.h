@@ -38,6 +38,7 @@ constexpr MatrixConfig matrix_config(const DisplayDescription& display, const Ma
     config.scan.modulation = modulation_config(display);
     config.scan.slice = slice_config(display);
     config.scan.used = used_lines(display, pins);
+    config.scan.pins = scan.row_groups + static_cast<std::uint32_t>(matrix_columns(display));
     config.pins = pins;
     config.channels = channel_order(scan);
     return config;

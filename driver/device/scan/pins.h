@@ -88,8 +88,9 @@ struct MatrixPins {
     }();
 };
 
+/// 0 for a number that no line has.
 constexpr LineMask line_bit(std::uint32_t line) {
-    return LineMask{1} << line;
+    return line < kMaxLines ? LineMask{1} << line : 0;
 }
 
 /// Columns of a matrix: LEDs, each channel one, that are lit together.

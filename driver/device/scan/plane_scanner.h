@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -47,6 +48,7 @@ struct ScanConfig {
     ModulationConfig modulation;
     SliceConfig slice;
     LineMask used = 0;             ///< Lines that it sets.
+    std::uint32_t pins = 0;        ///< So many pins; more than lines where two are on one.
     std::uint32_t write_size = 0;  ///< Elements of the write that shifts a slot's data in.
 };
 
@@ -87,14 +89,15 @@ public:
     static constexpr std::uint64_t kLongestHoldNs = 100'000;
 
     /// `config`, `lines` and `buffer` (scan_buffer_words(config)) are borrowed for good. Sets nothing; begin with
-    /// blank(). Ok; Unsupported: see ScanConfig; InvalidArgument: no lines, or a pin that is no output of theirs;
-    /// OutOfMemory: the buffer is too small.
+    /// blank(). Ok; Unsupported: see ScanConfig; InvalidArgument: no lines, a pin that is no output of theirs, or two
+    /// pins on one line; OutOfMemory: the buffer is too small.
     Status init(const Config& config, Lines lines, std::span<std::uint64_t> buffer) {
         finished_ = true;
         ready_ = false;
         const ScanConfig& scan = config.scan;
         if (scan.supported != Status::Ok) return scan.supported;
         if (!lines || (scan.used & ~lines.info().outputs) != 0) return Status::InvalidArgument;
+        if (static_cast<std::uint32_t>(std::popcount(scan.used)) != scan.pins) return Status::InvalidArgument;
         if (buffer.size() < scan_buffer_words(config)) return Status::OutOfMemory;
         lines_ = lines;
         modulation_config_ = scan.modulation;

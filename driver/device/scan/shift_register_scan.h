@@ -49,6 +49,7 @@ constexpr ShiftRegisterConfig shift_register_config(const DisplayDescription& di
     config.scan.modulation = modulation_config(display);
     config.scan.slice = slice_config(display);
     config.scan.used = used_lines(display, pins);
+    config.scan.pins = 4;
     config.pins = pins;
     config.connector = display.panels[0].connector;
     config.layers = display.slices;

@@ -296,6 +296,12 @@ TEST_CASE("scanners refuse what they cannot do") {
     CHECK(hub75.init(good, {}, buffer) == Status::InvalidArgument);
     transport::VirtualLines few({.outputs = 0xff});
     CHECK(hub75.init(good, few.lines(), buffer) == Status::InvalidArgument);
+    device::Hub75Pins crossed;
+    crossed.data[2][0] = crossed.clock;
+    CHECK(hub75.init(device::hub75_config(display, crossed), lines.lines(), buffer) == Status::InvalidArgument);
+    crossed = {};
+    crossed.latch = 64;
+    CHECK(hub75.init(device::hub75_config(display, crossed), lines.lines(), buffer) == Status::InvalidArgument);
     CHECK(hub75.init(good, lines.lines(), buffer) == Status::Ok);
     CHECK(hub75.begin(lit_order(std::span(std::as_bytes(std::span(buffer))).first(slice_bytes(display) - 1)), 1000) ==
           Status::InvalidArgument);

@@ -158,7 +158,7 @@ TEST_CASE("row groups of a matrix with lines of their own are swapped as such") 
 std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::size_t>, glm::vec3> lights(
     const DisplayDescription& display, std::span<const std::byte> page, const sim::Faults& faults) {
     const TimeAt time_at = perfect_time(display);
-    sim::Exposure exposure(display, display, {}, {}, time_at(device::kCycle), time_at(2 * device::kCycle));
+    sim::Exposure exposure(display, display, {}, time_at(device::kCycle), time_at(2 * device::kCycle));
     const auto scan = sim::make_strobe_scan(
         display, sim::with_wiring_faults(display, faults, [&](const sim::Strobe& strobe) { exposure.add(strobe); }));
     scan_page(display, page, 3, *scan, time_at, 255);
