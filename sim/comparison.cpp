@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "sim/canvas.h"
 #include "sim/exposed_voxels.h"
@@ -20,9 +22,9 @@ namespace {
 
 constexpr Color kGround{18, 20, 26};
 constexpr Color kInk{225, 228, 235};
-constexpr float kGrey = 0.35f;      ///< Of light that is as it was sent.
-constexpr double kChanged = 0.25;   ///< Part of the light sent.
-constexpr float kMarkShows = 0.9f;  ///< How much of a mark is seen through what stands before it.
+constexpr float kGrey = 0.35f;       ///< Of light that is as it was sent.
+constexpr double kChanged = 0.25;    ///< Part of the light sent.
+constexpr float kMarkShows = 0.85f;  ///< How much of a mark is seen through what stands before it.
 constexpr int kRow = 34;
 constexpr int kMargin = 20;
 
@@ -38,6 +40,9 @@ constexpr std::array<MarkStyle, 4> kMarks{{{"lost", {213, 94, 0}, {1.0f, 0.12f, 
                                            {"displaced", {86, 180, 233}, {0.08f, 0.45f, 1.0f}},
                                            {"changed", {204, 121, 167}, {0.75f, 0.12f, 0.5f}}}};
 
+/// In this order they are laid over each other: what is missing must not be hidden.
+constexpr std::array<std::size_t, kMarks.size()> kFromBelow{1, 2, 3, 0};
+
 /// Light of its own colour.
 class Fields {
 public:
@@ -45,12 +50,11 @@ public:
         field.flashes.push_back({place_mm, 0, 0});
         field.measured.push_back(light);
         all.flashes.push_back({place_mm, 0, 0});
-        all.measured.push_back(light);
     }
 
     LightField sent;
     LightField faithful;  ///< Lit as it was sent.
-    LightField marked;
+    std::array<LightField, kMarks.size()> marked;
     LightField all;
     std::array<std::size_t, kMarks.size()> counts{};
     std::size_t voxels = 0;
@@ -79,10 +83,25 @@ Fields fields_of(const Exposure& exposure, std::span<const std::byte> page, std:
         if (first == is.size()) {
             fields.add(fields.faithful, voxel.seen_mm, glm::vec3(kGrey));
         } else {
-            fields.add(fields.marked, voxel.is_lost() ? voxel.place_mm : voxel.seen_mm, kMarks[first].light);
+            fields.add(fields.marked[first], voxel.is_lost() ? voxel.place_mm : voxel.seen_mm, kMarks[first].light);
         }
     });
     return fields;
+}
+
+/// The outermost flashes, each way: what a camera must see of all of them.
+LightField outermost(const LightField& all) {
+    constexpr int kWays = 128;  // Spread over a sphere as seeds are in a sunflower.
+    LightField outer;
+    for (int way = 0; way < kWays && !all.flashes.empty(); ++way) {
+        const double z = (2.0 * way + 1.0) / kWays - 1.0;
+        const double angle = way * std::numbers::pi * (3.0 - std::sqrt(5.0));
+        const glm::dvec3 towards(std::sqrt(1.0 - z * z) * glm::dvec3(std::cos(angle), std::sin(angle), 0.0) +
+                                 glm::dvec3(0.0, 0.0, z));
+        outer.flashes.push_back(*std::ranges::max_element(
+            all.flashes, {}, [&](const Flash& flash) { return glm::dot(flash.place_mm, towards); }));
+    }
+    return outer;
 }
 
 void blend(Image& under, const Picture& over) {
@@ -132,16 +151,19 @@ Expected<Picture> render_comparison(const Exposure& exposure, std::span<const st
                                     const PictureOptions& options) {
     const DisplayDescription& display = exposure.display();
     const Fields fields = fields_of(exposure, page, brightness);
+    const LightField framed = outermost(fields.all);
     PictureOptions in_view = options;
-    in_view.framed = &fields.all;
-    std::array<Picture, 3> views;
-    const LightField* const shown[] = {&fields.sent, &fields.faithful, &fields.marked};
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        Expected<Picture> view = render_perspective(display, *shown[i], in_view);
-        if (!view) return view;
-        views[i] = std::move(*view);
+    in_view.framed = &framed;
+    const Expected<Picture> sent = render_perspective(display, fields.sent, in_view);
+    if (!sent) return sent;
+    Expected<Picture> lit = render_perspective(display, fields.faithful, in_view);
+    if (!lit) return lit;
+    for (const std::size_t mark : kFromBelow) {
+        if (fields.marked[mark].flashes.empty()) continue;
+        const Expected<Picture> marks = render_perspective(display, fields.marked[mark], in_view);
+        if (!marks) return marks;
+        blend(lit->image, *marks);
     }
-    blend(views[1].image, views[2]);
 
     const std::uint32_t width = 2 * options.width;
     const int columns = static_cast<int>(width);
@@ -155,11 +177,11 @@ Expected<Picture> render_comparison(const Exposure& exposure, std::span<const st
 
     Picture picture;
     picture.image = canvas.image();
-    paste(picture.image, views[0].image, 0, top);
-    paste(picture.image, views[1].image, options.width, top);
-    picture.covered = views[1].covered;
-    picture.clipped = views[1].clipped;
-    picture.drawn_by = views[1].drawn_by;
+    paste(picture.image, sent->image, 0, top);
+    paste(picture.image, lit->image, options.width, top);
+    picture.covered = sent->covered;
+    picture.clipped = sent->clipped;
+    picture.drawn_by = sent->drawn_by;
     return picture;
 }
 

@@ -22,7 +22,7 @@ namespace xorvox::sim {
 
 /// Draws both with `options` (their framing is that of all light, sent and lit), each of options.width × options.height
 /// pixels; the picture is twice as wide, and higher by the legend. `page` and `brightness` as for for_each_voxel()
-/// (sim/exposed_voxels.h). Picture::covered and clipped are of the right side. Errors as of render_perspective().
+/// (sim/exposed_voxels.h). Picture::covered and clipped are of the left side. Errors as of render_perspective().
 /// Throws std::bad_alloc.
 Expected<Picture> render_comparison(const Exposure& exposure, std::span<const std::byte> page, std::uint8_t brightness,
                                     const PictureOptions& options = {});
