@@ -75,7 +75,6 @@ struct PanelRows {
 struct Exposure::Impl {
     DisplayDescription display;
     DisplayDescription built;
-    Faults faults;
     CyclesAt cycles_at;
     std::uint64_t from_ns;
     std::uint64_t to_ns;
@@ -311,9 +310,9 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row, const Visit
     }
 }
 
-Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, const Faults& faults,
-                   CyclesAt cycles_at, std::uint64_t from_ns, std::uint64_t to_ns)
-    : impl_(std::make_unique<Impl>(Impl{display, built, faults, std::move(cycles_at), from_ns, to_ns})) {
+Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
+                   std::uint64_t from_ns, std::uint64_t to_ns, Faults faults)
+    : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns, std::move(faults)})) {
     assert(to_ns > from_ns);
     Impl& impl = *impl_;
     if (display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0) impl.half_turns = 2;

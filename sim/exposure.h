@@ -1,7 +1,7 @@
 // Exposure: what a shutter that is open for a while sees of a display: the light of all strobes in that time, each
 // where the display really was in the middle of the strobe.
 //
-//   Exposure exposure(display, display, {}, [&](std::uint64_t time_ns) { return rotor.cycles_at(time_ns); }, from, to);
+//   Exposure exposure(display, display, [&](std::uint64_t time_ns) { return rotor.cycles_at(time_ns); }, from, to);
 //   scan = make_strobe_scan(display, [&](const Strobe& strobe) { exposure.add(strobe); });
 //   …
 //   render_perspective(display, exposure.light());
@@ -56,10 +56,10 @@ public:
 
     /// The shutter is open from `from_ns` to `to_ns`, later. `display` is what the device goes by, and `built` what is
     /// really there (they have the same layout: SimulatorOptions::built); both valid and copied, and what they borrow
-    /// must outlive the exposure. Of `faults`, possible on `built`, those of its pose count (sim/faults.h); those of
-    /// its wiring are in the strobes. `cycles_at` empty: as declared, from time 0 on.
-    Exposure(const DisplayDescription& display, const DisplayDescription& built, const Faults& faults,
-             CyclesAt cycles_at, std::uint64_t from_ns, std::uint64_t to_ns);
+    /// must outlive the exposure. `cycles_at` empty: as declared, from time 0 on. Of `faults`, possible on `built`,
+    /// those of its pose count (sim/faults.h); those of its wiring are in the strobes.
+    Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
+             std::uint64_t from_ns, std::uint64_t to_ns, Faults faults = {});
     Exposure(Exposure&&) noexcept;
     Exposure& operator=(Exposure&&) noexcept;
     ~Exposure();

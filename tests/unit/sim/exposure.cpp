@@ -91,7 +91,7 @@ std::vector<std::byte> white_page(const DisplayDescription& display) {
 sim::Exposure exposed(const DisplayDescription& display, std::span<const std::byte> page, std::uint32_t cycles = 1,
                       sim::Exposure::CyclesAt cycles_at = {}, std::uint8_t brightness = 255) {
     const TimeAt time_at = perfect_time(display);
-    sim::Exposure exposure(display, display, {}, std::move(cycles_at), time_at(device::kCycle),
+    sim::Exposure exposure(display, display, std::move(cycles_at), time_at(device::kCycle),
                            time_at((1 + cycles) * device::kCycle));
     const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) { exposure.add(strobe); });
     scan_page(display, page, cycles + 2, *scan, time_at, brightness);
@@ -310,7 +310,7 @@ TEST_CASE("rows that never stay the same are added up, at the same light") {
     const DisplayDescription display = hub75_rotor();
     const TimeAt time_at = perfect_time(display);
     constexpr std::uint32_t kCycles = 40;
-    sim::Exposure exposure(display, display, {}, {}, 0, time_at(kCycles * device::kCycle));
+    sim::Exposure exposure(display, display, {}, 0, time_at(kCycles * device::kCycle));
     const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) {
         sim::Strobe later = strobe;
         exposure.add(later);
@@ -331,7 +331,7 @@ TEST_CASE("rows that never stay the same are added up, at the same light") {
 
 TEST_CASE("a shutter cuts the light of a strobe") {
     const DisplayDescription display = stack_of(2, 1, 1);
-    sim::Exposure exposure(display, display, {}, {}, 1000, 10'001'000);  // A cycle.
+    sim::Exposure exposure(display, display, {}, 1000, 10'001'000);  // A cycle.
     const std::array bits{std::byte{0b10}};
     sim::Strobe strobe{.on_ns = 0, .off_ns = 2000, .row_group = sim::Strobe::kAllRows, .plane = sim::Strobe::kLevels};
     strobe.panels[0] = {.first = bits.data(), .row_bytes = 1};

@@ -61,8 +61,8 @@ class Both {
 public:
     explicit Both(const DisplayDescription& display)
         : display_(display),
-          seen_light_(display, display, {}, {}, 0, std::uint64_t{1} << 62),
-          pin_light_(display, display, {}, {}, 0, std::uint64_t{1} << 62),
+          seen_light_(display, display, {}, 0, std::uint64_t{1} << 62),
+          pin_light_(display, display, {}, 0, std::uint64_t{1} << 62),
           strobes_(sim::make_strobe_scan(display, [this](const sim::Strobe& strobe) {
               by_orders_.push_back(compared(display_, strobe));
               seen_light_.add(strobe);

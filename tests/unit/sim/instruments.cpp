@@ -30,7 +30,7 @@ sim::Exposure exposed(const DisplayDescription& display, std::span<const std::by
     const auto cycles_at = [display, ahead = watched.ahead_slices](std::uint64_t time_ns) {
         return static_cast<double>(time_ns) * 1e-9 * display.cycles_per_second + ahead / display.slices;
     };
-    sim::Exposure exposure(display, display, watched.faults, cycles_at, 0, time_at(watched.cycles * device::kCycle));
+    sim::Exposure exposure(display, display, cycles_at, 0, time_at(watched.cycles * device::kCycle), watched.faults);
     const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) { exposure.add(strobe); });
     scan_page(display, lit, watched.cycles, *scan, time_at, watched.brightness);
     return exposure;
