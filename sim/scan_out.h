@@ -1,8 +1,7 @@
 // ScanOut: makes strobes of what the device half orders. Two of them, which give the same light:
 //
-//   strobe_scan   row and plane events by the modulation (driver/device/scan/modulation.h), from the slice's bytes:
-//   fast edge_scan     the device half's own scanner sets pins, and models of the chips behind them say what is lit:
-//   exact
+//   strobe_scan   row and plane events by the modulation (driver/device/scan/modulation.h): fast
+//   edge_scan     the device half's own scanner sets pins, and models of the chips behind them say what is lit
 #pragma once
 
 #include <cstdint>
@@ -42,7 +41,10 @@ std::unique_ptr<ScanOut> make_strobe_scan(const DisplayDescription& display, Str
 using PinSink = std::function<void(std::uint64_t time_ns, LineMask levels, LineMask changed)>;
 
 /// For displays whose pins there are models of: HUB75, 74HC595, and Direct with more than one row group, all with a
-/// linear response; an Error names what this one has. `pins` may be empty.
+/// linear response; an Error names what this one has. `display` must be valid, and is copied. Lines change at twice the
+/// pixel clock; where that is 0, data are shifted in no time, as in the modulation. Rows, bits, times and the layer of
+/// a cube are what the pins say; the plane is that of the order's slot at the time. `pins` may be empty; it is called
+/// before the strobe is given that a change ends, and first in this function.
 Expected<std::unique_ptr<ScanOut>> make_edge_scan(const DisplayDescription& display, StrobeSink sink, PinSink pins);
 
 /// Names of the lines that edge_scan sets, by number: "clock", "latch", "r1" …; for traces.

@@ -21,7 +21,7 @@ namespace xorvox::sim {
 struct VcdOptions {
     std::string scope = "xorvox";  ///< The display's name; letters, digits and _, any other becomes _.
     /// A trace ends before the change after so many; a change of several pins at once counts for each. Ten million are
-    /// about 70 MB.
+    /// about 55 MB.
     std::uint64_t most_changes = 10'000'000;
 };
 
