@@ -66,6 +66,7 @@ Expected<NewFile> NewFile::create(const std::string& path) {
 }
 
 void NewFile::write(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;  // It may have no address.
     if (error_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) error_ = errno;
 }
 
