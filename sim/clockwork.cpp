@@ -60,15 +60,16 @@ void Clockwork::follow() {
     order_end_ns_ = order.end_ns;
     const bool is_new = order.number != order_;
     order_ = order.number;
-    if (scan_ && is_new) {
-        scan_->run_until(now_ns_);
-        scan_->begin(order, device_.shown().frame, now_ns_);
-    }
+    const std::uint32_t cycle = device::cycle_of(control_.rotation().phase());
+    if (scan_ && is_new) scan_->run_until(now_ns_);
+    if (cycle != cycle_) cycle_begin_ns_ = now_ns_;
+    cycle_ = cycle;
+    if (scan_ && is_new) scan_->begin(order, device_.shown().frame, now_ns_);
     if (timing_ == nullptr) return;
     const device::Shown shown = device_.shown();
     timing_->look({.dark = order.dark,
                    .locked = control_.rotation().state() == device::RotationTracker::State::Locked,
-                   .cycle = device::cycle_of(control_.rotation().phase()),
+                   .cycle = cycle,
                    .has_frame = !shown.page.empty(),
                    .frame = shown.frame,
                    .faults = device_.faults()},

@@ -34,6 +34,9 @@ public:
     /// From the next order on; null: nobody scans out.
     void set_scan(std::unique_ptr<ScanOut> scan);
 
+    /// When the device began the cycle that it is in, as far as it was watched.
+    std::uint64_t cycle_begin_ns() const { return cycle_begin_ns_; }
+
     /// All that happens until `now_ns`. A millisecond takes a step at least, if there is anybody to see it: else only
     /// the boundaries.
     void run_until(std::uint64_t now_ns);
@@ -57,6 +60,8 @@ private:
     std::unique_ptr<ScanOut> scan_;
     std::uint64_t now_ns_ = 0;
     std::uint64_t order_end_ns_ = 0;
+    std::uint32_t cycle_ = 0;  ///< Of the device.
+    std::uint64_t cycle_begin_ns_ = 0;
     std::uint32_t order_ = 0;  ///< The number of the one that is being followed.
 };
 

@@ -318,7 +318,6 @@ void Exposure::Impl::visit_row(const ExposedRow& as, const Row& row, const Visit
 Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& built, CyclesAt cycles_at,
                    std::uint64_t from_ns, std::uint64_t to_ns, Faults faults)
     : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns, std::move(faults)})) {
-    assert(to_ns > from_ns);
     Impl& impl = *impl_;
     if (display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0) impl.half_turns = 2;
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
@@ -329,8 +328,15 @@ Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& 
         impl.slice_rows += panel.rows;
     }
     impl.rows.resize(impl.slice_rows * display.slices * impl.half_turns);
-    const double cycles = static_cast<double>(to_ns - from_ns) * 1e-9 * display.cycles_per_second;
-    const double full_ns = full_light_ns(display) * cycles;
+    close(to_ns);
+}
+
+void Exposure::close(std::uint64_t to_ns) {
+    Impl& impl = *impl_;
+    assert(to_ns > impl.from_ns);
+    impl.to_ns = to_ns;
+    const double cycles = static_cast<double>(to_ns - impl.from_ns) * 1e-9 * impl.display.cycles_per_second;
+    const double full_ns = full_light_ns(impl.display) * cycles;
     impl.scale = full_ns > 0.0 ? 1.0 / full_ns : 0.0;
 }
 

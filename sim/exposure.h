@@ -70,6 +70,9 @@ public:
 
     using VisitRow = std::function<void(const ExposedRow&)>;
 
+    /// The shutter closes at `to_ns` instead, after from_ns(). Strobes that go on for longer must not have been added.
+    void close(std::uint64_t to_ns);
+
     /// Calls visit(row) for every row that was lit, by slice, panel and row; of one, by place.
     void for_each_row(const VisitRow& visit) const;
     /// The same for one row of the display alone.

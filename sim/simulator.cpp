@@ -182,6 +182,10 @@ double Simulator::cycles_at(std::uint64_t time_ns) const {
     return impl_->clockwork->cycles_at(time_ns) + phase_ahead(impl_->display, impl_->built);
 }
 
+std::uint64_t Simulator::cycle_begin_ns() const {
+    return impl_->clockwork->cycle_begin_ns();
+}
+
 const TimingWatch& Simulator::timing() const {
     return impl_->timing;
 }

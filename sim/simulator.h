@@ -80,6 +80,10 @@ public:
     /// the whole ones count frames. Where built().sync.index_phase is another, that is in it.
     double cycles_at(std::uint64_t time_ns) const;
 
+    /// When the device began the cycle that it is in; in a sink: that of the strobe, or an earlier one's end. Only of
+    /// cycles that began while somebody watched.
+    std::uint64_t cycle_begin_ns() const;
+
     /// What was made of the frames in time, until the last poll(); zeros without SimulatorOptions::keeps_time.
     const TimingWatch& timing() const;
 

@@ -127,8 +127,10 @@ std::string gone_to(const transport::Address& address) {
                : fmt::format("tcp:{}:{} has shown it", address.host, address.port);
 }
 
-void print_picture(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
-    if (options.png.empty() || !light) return;
+void print_seen(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
+    if (!light) return;
+    print_in_time(options.simulation, light->in_time);
+    if (options.png.empty()) return;
     fmt::print("picture: {}, {:.1f} % of it is lit\n", options.png, 100.0 * light->picture_covered);
 }
 
@@ -170,7 +172,7 @@ Expected<void> show_still(const DeliveryOptions& options, const transport::Addre
                thousands(lit.pixels), thousands(lit.most_in_slice), thousands(slice_pixels));
     if (!is_here(address)) fmt::print("{}\n", gone_to(address));
     print_thinned(display, slices);
-    print_picture(options, delivery->light);
+    print_seen(options, delivery->light);
     return finish_recording(options, recording);
 }
 
@@ -209,7 +211,7 @@ Expected<void> show_moving(const DeliveryOptions& options, const transport::Addr
         print_stream(*delivery);
         if (!is_here(address) && !delivery->broken) fmt::print("{}\n", gone_to(address));
         print_thinned(display, slices);
-        print_picture(options, delivery->light);
+        print_seen(options, delivery->light);
     }
     if (const auto kept = finish_recording(options, recording); !kept) return kept;
     return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();

@@ -182,6 +182,7 @@ void print_lit(const ReplayOptions& options, const std::optional<LightSeen>& lig
     const sim::Statistics& seen = light->statistics;
     fmt::print("lit: {} pixels at {} places, {} outside the display\n", thousands(seen.pixels_lit),
                thousands(seen.voxels_lit), thousands(seen.light_outside));
+    print_in_time(options.delivery.simulation, light->in_time);
     if (!options.delivery.png.empty()) fmt::print("picture: {}\n", options.delivery.png);
 }
 

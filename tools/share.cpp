@@ -138,6 +138,7 @@ void report(const ShareOptions& options, const DisplayDescription& display, cons
     if (light) {
         fmt::print("lit: {} pixels at {} places\n", thousands(light->statistics.pixels_lit),
                    thousands(light->statistics.voxels_lit));
+        print_in_time(to.simulation, light->in_time);
     }
     if (!to.png.empty() && light) fmt::print("picture: {}\n", to.png);
 }

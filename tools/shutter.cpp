@@ -1,7 +1,6 @@
 #include "tools/shutter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <span>
@@ -29,62 +28,74 @@ bool is_png(const std::string& path) {
     return extension_of(path) == ".png";
 }
 
-/// When the display has gone on to `cycles`, if that is before `latest_ns`; else that.
-std::uint64_t time_of(const sim::Simulator& simulator, double cycles, std::uint64_t from_ns, std::uint64_t latest_ns) {
-    while (from_ns < latest_ns) {
-        const std::uint64_t middle = from_ns + (latest_ns - from_ns) / 2;
-        if (simulator.cycles_at(middle) >= cycles) {
-            latest_ns = middle;
-        } else {
-            from_ns = middle + 1;
+/// When the shutter opens and closes: with the second cycle that the device begins, for the time that was asked for or
+/// for that cycle. In the first one, strings of LEDs are sent the frame.
+class Opening {
+public:
+    Opening(const sim::Simulator& simulator, const std::optional<double>& exposure_s)
+        : simulator_(simulator), exposure_s_(exposure_s), before_ns_(simulator.cycle_begin_ns()) {}
+
+    /// Looks at the simulator, which has gone on.
+    void look() {
+        const std::uint64_t begin_ns = simulator_.cycle_begin_ns();
+        if (begin_ns == before_ns_) return;
+        if (!is_open_) {
+            if (++begun_ == 2) open_at(begin_ns);
+        } else if (to_ns_ == kNever) {
+            to_ns_ = begin_ns;
         }
+        before_ns_ = begin_ns;
     }
-    return from_ns;
-}
+    void open_at(std::uint64_t from_ns) {
+        is_open_ = true;
+        from_ns_ = from_ns;
+        if (exposure_s_) to_ns_ = from_ns + static_cast<std::uint64_t>(*exposure_s_ * 1e9);
+    }
+    void close_at(std::uint64_t to_ns) { to_ns_ = to_ns; }
 
-struct Interval {
-    std::uint64_t from_ns = 0;
-    std::uint64_t to_ns = 0;
+    bool is_open() const { return is_open_; }
+    std::uint64_t from_ns() const { return from_ns_; }
+    std::uint64_t to_ns() const { return to_ns_; }  ///< kNever: not known yet.
+
+    static constexpr std::uint64_t kNever = ~std::uint64_t{0} / 2;
+
+private:
+    const sim::Simulator& simulator_;
+    std::optional<double> exposure_s_;
+    std::uint64_t before_ns_;
+    int begun_ = 0;
+    bool is_open_ = false;
+    std::uint64_t from_ns_ = 0;
+    std::uint64_t to_ns_ = kNever;
 };
-
-/// From the next whole cycle on; as long as it was asked for, or one cycle, however long that really takes. A display
-/// that stands is waited for two cycles.
-Interval opening(const sim::Simulator& simulator, std::uint64_t now_ns, const std::optional<double>& exposure_s) {
-    const std::uint64_t cycle = cycle_ns(simulator.display());
-    const double begin = std::floor(simulator.cycles_at(now_ns)) + 1.0;
-    Interval interval;
-    interval.from_ns = time_of(simulator, begin, now_ns + 1, now_ns + 2 * cycle);
-    interval.to_ns = exposure_s ? interval.from_ns + static_cast<std::uint64_t>(*exposure_s * 1e9)
-                                : time_of(simulator, begin + 1.0, interval.from_ns + 1, interval.from_ns + 2 * cycle);
-    return interval;
-}
 
 /// The part of a trace in which the shutter is open.
 class Trace {
 public:
-    Trace(const sim::Simulator& simulator, const Interval& interval, io::AtomicFile& file)
+    Trace(const sim::Simulator& simulator, Opening& opening, io::AtomicFile& file)
         : file_(file),
-          interval_(interval),
+          opening_(opening),
           writer_(sim::pin_names(simulator.display()), options(simulator),
                   [this](std::string_view bytes) { return file_.write(bytes); }) {}
 
     void on_pins(std::uint64_t time_ns, LineMask levels, LineMask changed) {
-        if (time_ns > interval_.to_ns) return;
-        if (time_ns < interval_.from_ns) {
+        opening_.look();
+        if (!opening_.is_open()) {
             before_ = levels;
             return;
         }
-        if (!begun_) writer_.on_pins(interval_.from_ns, before_, ~LineMask{0});
+        if (time_ns > opening_.to_ns()) return;
+        if (!begun_) writer_.on_pins(opening_.from_ns(), before_, ~LineMask{0});
         begun_ = true;
         writer_.on_pins(time_ns, levels, changed);
     }
 
     Expected<std::optional<double>> finish() {
-        if (const auto written = writer_.finish(interval_.to_ns); !written) return tl::unexpected(written.error());
+        if (const auto written = writer_.finish(opening_.to_ns()); !written) return tl::unexpected(written.error());
         if (const auto kept = file_.commit(); !kept) return tl::unexpected(kept.error());
         const auto ended = writer_.ended_early_ns();
         if (!ended) return std::optional<double>();
-        return std::optional(static_cast<double>(*ended - interval_.from_ns) * 1e-6);
+        return std::optional(static_cast<double>(*ended - opening_.from_ns()) * 1e-6);
     }
 
 private:
@@ -95,7 +106,7 @@ private:
     }
 
     io::AtomicFile& file_;
-    Interval interval_;
+    Opening& opening_;
     sim::VcdWriter writer_;
     LineMask before_ = 0;
     bool begun_ = false;
@@ -156,14 +167,23 @@ Expected<SeenInTime> Shutter::open(sim::Simulator& simulator, std::uint64_t now_
                                    const Meanwhile& meanwhile) {
     const SimulationOptions& wanted = options.simulation;
     const device::Shown shown = simulator.device().shown();
-    const Interval interval = opening(simulator, now_ns, wanted.exposure_s);
-    sim::Exposure exposure(
-        simulator.display(), simulator.built(), [&](std::uint64_t time_ns) { return simulator.cycles_at(time_ns); },
-        interval.from_ns, interval.to_ns, simulator.faults());
+    const std::uint64_t cycle = cycle_ns(simulator.display());
+    Opening opening(simulator, wanted.exposure_s);
     std::optional<Trace> trace;
-    if (trace_) trace.emplace(simulator, interval, *trace_);
-
-    simulator.watch([&](const sim::Strobe& strobe) { exposure.add(strobe); });
+    if (trace_) trace.emplace(simulator, opening, *trace_);
+    std::optional<sim::Exposure> exposure;
+    const auto expose = [&] {
+        exposure.emplace(
+            simulator.display(), simulator.built(), [&](std::uint64_t time_ns) { return simulator.cycles_at(time_ns); },
+            opening.from_ns(), opening.to_ns(), simulator.faults());
+    };
+    simulator.watch([&](const sim::Strobe& strobe) {
+        opening.look();
+        if (!opening.is_open()) return;
+        if (!exposure) expose();
+        if (exposure->to_ns() != opening.to_ns()) exposure->close(opening.to_ns());
+        exposure->add(strobe);
+    });
     if (trace) {
         simulator.watch_pins([&](std::uint64_t time_ns, LineMask levels, LineMask changed) {
             trace->on_pins(time_ns, levels, changed);
@@ -171,15 +191,26 @@ Expected<SeenInTime> Shutter::open(sim::Simulator& simulator, std::uint64_t now_
     }
     {
         const Progress progress("watching the display");
+        const auto go_until = [&](std::uint64_t end_ns, const auto& is_enough) {
+            while (now_ns < end_ns && !is_enough() && !asked_to_stop()) {
+                now_ns = std::min(std::max(simulator.next_boundary_ns(), now_ns + 1), end_ns);
+                do {
+                    meanwhile(now_ns);
+                } while (simulator.poll(now_ns) == Status::Ok);
+                opening.look();
+            }
+        };
+        // A display that stands begins no cycle.
+        constexpr std::uint64_t kPatience = 8;
+        go_until(now_ns + kPatience * cycle, [&] { return opening.is_open(); });
+        if (!opening.is_open()) opening.open_at(now_ns);
+        go_until(now_ns + kPatience * cycle, [&] { return opening.to_ns() != Opening::kNever; });
+        if (opening.to_ns() == Opening::kNever) opening.close_at(now_ns);
         // Strobes are told when they have ended: of LEDs that keep their light, with the next frame.
-        const std::uint64_t end_ns = interval.to_ns + 2 * cycle_ns(simulator.display());
-        while (now_ns < end_ns && !asked_to_stop()) {
-            now_ns = std::min(std::max(simulator.next_boundary_ns(), now_ns + 1), end_ns);
-            do {
-                meanwhile(now_ns);
-            } while (simulator.poll(now_ns) == Status::Ok);
-        }
+        go_until(opening.to_ns() + 2 * cycle, [] { return false; });
     }
+    if (!exposure) expose();
+    if (exposure->to_ns() != opening.to_ns()) exposure->close(opening.to_ns());
     simulator.watch({});
     simulator.watch_pins({});
     if (asked_to_stop()) return fail("interrupted while the display was watched");
@@ -187,14 +218,14 @@ Expected<SeenInTime> Shutter::open(sim::Simulator& simulator, std::uint64_t now_
     SeenInTime seen;
     seen.timing = simulator.timing().timing();
     const Progress progress("measuring the light");
-    seen.exposure = sim::measure(exposure, shown.page, shown.brightness);
+    seen.exposure = sim::measure(*exposure, shown.page, shown.brightness);
     if (trace) {
         const Expected<std::optional<double>> ended = trace->finish();
         if (!ended) return tl::unexpected(ended.error());
         seen.trace_ended_ms = *ended;
     }
     if (histogram_) {
-        const sim::LightHistogram histogram = sim::make_histogram(exposure, shown.page, shown.brightness);
+        const sim::LightHistogram histogram = sim::make_histogram(*exposure, shown.page, shown.brightness);
         Expected<void> written;
         if (is_png(wanted.histogram)) {
             written = write_image(*histogram_, sim::draw_chart(histogram));
@@ -209,13 +240,13 @@ Expected<SeenInTime> Shutter::open(sim::Simulator& simulator, std::uint64_t now_
         picture.framing = options.frame == "display" ? sim::Framing::Display : sim::Framing::Object;
         picture.width = options.size ? options.size->width : 720;
         picture.height = options.size ? options.size->height : 540;
-        Expected<sim::Picture> drawn = sim::render_comparison(exposure, shown.page, shown.brightness, picture);
+        Expected<sim::Picture> drawn = sim::render_comparison(*exposure, shown.page, shown.brightness, picture);
         if (!drawn) return tl::unexpected(drawn.error());
         if (const auto written = write_image(*comparison_, drawn->image); !written) {
             return tl::unexpected(written.error());
         }
     }
-    seen.light = exposure.light();
+    seen.light = exposure->light();
     return seen;
 }
 
@@ -235,11 +266,15 @@ void print_in_time(const SimulationOptions& options, const std::optional<SeenInT
     const sim::Timing& timing = seen->timing;
     std::string latency;
     if (timing.latency.frames > 0) {
-        latency = fmt::format("; first light {:.3g} ms after the first packet, at most {:.3g} ms",
-                              timing.latency.mean_ns * 1e-6, static_cast<double>(timing.latency.most_ns) * 1e-6);
+        latency = fmt::format("; first light {:.3g} ms after the first packet", timing.latency.mean_ns * 1e-6);
+        if (timing.latency.frames > 1) {
+            latency +=
+                fmt::format(" on average, {:.3g} ms at most", static_cast<double>(timing.latency.most_ns) * 1e-6);
+        }
     }
-    fmt::print("in time: {} frames shown, {} late, {} dropped, {} cycles torn{}\n", thousands(timing.presented),
-               thousands(timing.late), thousands(timing.dropped), thousands(timing.torn), latency);
+    fmt::print("in time: {} frame{} shown, {} late, {} dropped, {} cycles torn{}\n", thousands(timing.presented),
+               timing.presented == 1 ? "" : "s", thousands(timing.late), thousands(timing.dropped),
+               thousands(timing.torn), latency);
     for (std::uint8_t number = 1; number < timing.faults.size(); ++number) {
         if (timing.faults[number] == 0) continue;
         fmt::print("fault {}: {}\n", number, host::describe(static_cast<wire::Fault>(number)));

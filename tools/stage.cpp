@@ -184,6 +184,7 @@ void print_light(const StageOptions& options, const Stage& stage, const std::opt
     if (options.light.mode == "even") {
         fmt::print("brightness: even; each sample is as bright as the space it stands for is large\n");
     }
+    print_in_time(options.delivery.simulation, light->in_time);
     if (!options.delivery.png.empty()) {
         fmt::print("picture: {}, {:.0f} % of it is the object\n", options.delivery.png, 100.0 * light->picture_covered);
     }
