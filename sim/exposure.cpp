@@ -386,26 +386,6 @@ bool Exposure::add_row_light(std::uint32_t slice, std::uint32_t panel, std::uint
     return any;
 }
 
-LightField Exposure::light() const {
-    LightField field;
-    field.pixels = impl_->pixels;
-    std::size_t flashes = 0;
-    for_each_row([&](const ExposedRow& row) {
-        flashes += row.light.size() - static_cast<std::size_t>(std::ranges::count(row.light, glm::vec3(0.0f)));
-    });
-    field.flashes.reserve(flashes);
-    field.measured.reserve(flashes);
-    for_each_row([&](const ExposedRow& row) {
-        const Seats seats(impl_->built, row.panel, row.at, impl_->faults);
-        for (std::uint32_t column = 0; column < row.light.size(); ++column) {
-            if (row.light[column] == glm::vec3(0.0f)) continue;
-            field.flashes.push_back({seats.place_mm(row.row, column), 0, row.slice});
-            field.measured.push_back(row.light[column]);
-        }
-    });
-    return field;
-}
-
 const DisplayDescription& Exposure::display() const {
     return impl_->display;
 }

@@ -82,8 +82,9 @@ public:
     /// there was any.
     bool add_row_light(std::uint32_t slice, std::uint32_t panel, std::uint32_t row, std::span<glm::vec3> light) const;
 
-    /// All of it as flashes, for pictures, statistics and rebuild: of each LED that was lit one for each place, with
-    /// its light in LightField::measured, Flash::time the slice that the device meant and no code. 44 bytes a flash.
+    /// All of it as flashes, for pictures, statistics and rebuild: of each LED that was lit one for each slice of its
+    /// way that it was lit in, at the mean place, with its light in LightField::measured, Flash::time a slice that the
+    /// device meant and no code. 44 bytes a flash.
     LightField light() const;
 
     const DisplayDescription& display() const;

@@ -190,8 +190,9 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
     }
     if (!options.view.empty() && options.png.empty())
         return fail("--view says what --png draws; give --png OUT.png too");
-    if (!options.frame.empty() && options.png.empty())
-        return fail("--frame says what --png shows; give --png OUT.png too");
+    const bool draws = !options.png.empty() || !options.simulation.compare.empty();
+    if (!options.frame.empty() && !draws)
+        return fail("--frame says what --png and --compare show; give one of them, as in --png OUT.png, too");
     if (!options.built.empty() && !here) {
         return fail("--built is how a display in this program is built and needs --to loopback; leave out one of them");
     }
@@ -207,7 +208,7 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
     }
     if (const auto conditions = read_conditions(simulation); !conditions) return tl::unexpected(conditions.error());
     if (options.size) {
-        if (options.png.empty()) return fail("--size is that of --png; give --png OUT.png too");
+        if (!draws) return fail("--size is that of --png and --compare; give one of them, as in --png OUT.png, too");
         const auto [width, height] = *options.size;
         if (std::min(width, height) < 48 || std::max(width, height) > 4096) {
             return fail(fmt::format("--size {}x{}: a picture has 48 to 4096 pixels a side", width, height));

@@ -250,20 +250,7 @@ Expected<SeenInTime> Shutter::open(sim::Simulator& simulator, std::uint64_t now_
     return seen;
 }
 
-void print_in_time(const SimulationOptions& options, const std::optional<SeenInTime>& seen) {
-    if (!seen) return;
-    const sim::ExposureStatistics& light = seen->exposure;
-    fmt::print("seen in {:.4g} ms: of {} voxels sent {} were lit, {} not; {} were lit that were not sent\n",
-               light.exposure_ms, thousands(light.sent), thousands(light.lit - light.extra), thousands(light.lost),
-               thousands(light.extra));
-    if (light.lit > 0) {
-        fmt::print(
-            "light: {:.1f} % of what was sent, uneven by {:.1f} %; {:.2f} % of it out of place, by up to {:.3g} "
-            "mm, {:.2g} slices\n",
-            100.0 * light.light, 100.0 * light.uniformity.spread, 100.0 * light.outside, light.stray_mm,
-            light.stray_slices);
-    }
-    const sim::Timing& timing = seen->timing;
+void print_timing(const sim::Timing& timing) {
     std::string latency;
     if (timing.latency.frames > 0) {
         latency = fmt::format("; first light {:.3g} ms after the first packet", timing.latency.mean_ns * 1e-6);
@@ -279,6 +266,22 @@ void print_in_time(const SimulationOptions& options, const std::optional<SeenInT
         if (timing.faults[number] == 0) continue;
         fmt::print("fault {}: {}\n", number, host::describe(static_cast<wire::Fault>(number)));
     }
+}
+
+void print_in_time(const SimulationOptions& options, const std::optional<SeenInTime>& seen) {
+    if (!seen) return;
+    const sim::ExposureStatistics& light = seen->exposure;
+    fmt::print("seen in {:.4g} ms: of {} voxels sent {} were lit, {} not; {} were lit that were not sent\n",
+               light.exposure_ms, thousands(light.sent), thousands(light.lit - light.extra), thousands(light.lost),
+               thousands(light.extra));
+    if (light.lit > 0) {
+        fmt::print(
+            "light: {:.1f} % of what was sent, uneven by {:.1f} %; {:.2f} % of it out of place, by up to {:.3g} "
+            "mm, {:.2g} slices\n",
+            100.0 * light.light, 100.0 * light.uniformity.spread, 100.0 * light.outside, light.stray_mm,
+            light.stray_slices);
+    }
+    print_timing(seen->timing);
     if (!options.trace.empty()) fmt::print("trace: {}\n", options.trace);
     if (seen->trace_ended_ms) {
         warn(fmt::format("{} is full after {:.3g} ms; a shorter --exposure makes a whole one", options.trace,

@@ -51,6 +51,9 @@ private:
     std::optional<io::AtomicFile> comparison_;
 };
 
+/// Lines for people: what became of frames, and faults.
+void print_timing(const sim::Timing& timing);
+
 /// Lines for people; nothing where `seen` is empty.
 void print_in_time(const SimulationOptions& options, const std::optional<SeenInTime>& seen);
 

@@ -16,6 +16,7 @@
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/placement.h"
+#include "tools/shutter.h"
 #include "tools/simulation.h"
 #include "tools/stop.h"
 #include "transport/address.h"
@@ -47,6 +48,11 @@ public:
         const char* what = arrived ? "connected" : "disconnected";
         json_ ? fmt::print("{{\"event\": \"{}\"}}\n", what) : fmt::print("client {}\n", what);
         std::fflush(stdout);
+    }
+    void ended(const sim::Timing& timing) {
+        std::string object = sim::to_json(timing);
+        while (object.ends_with('\n')) object.pop_back();
+        json_ ? fmt::print("{{\"event\": \"ended\", \"timing\": {}}}\n", object) : print_timing(timing);
     }
     /// Says what is shown when that has changed since the last call.
     void shown(const sim::Simulator& simulator, std::uint64_t now_ns) {
@@ -97,6 +103,7 @@ Expected<void> sim(const SimOptions& options) {
     if (!conditions) return tl::unexpected(conditions.error());
     simulated.faults = std::move(conditions->faults);
     simulated.rotor = conditions->rotor;
+    simulated.keeps_time = true;
     Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{}, simulated);
     if (!simulator) return tl::unexpected(simulator.error());
     Expected<transport::TcpListener> listener = transport::TcpListener::listen(address->port, address->host);
@@ -115,13 +122,15 @@ Expected<void> sim(const SimOptions& options) {
         recording = std::move(*writer);
     }
     UniqueLink client;
+    // The display is switched on now.
+    const auto time_ns = [begin_ns = clock_ns()] { return clock_ns() - begin_ns; };
     std::uint64_t heard_ns = 0;
     while (!asked_to_stop()) {
-        const std::uint64_t now_ns = clock_ns();
+        const std::uint64_t now_ns = time_ns();
         if (!client && listener->accept(client) == Status::Ok) {
             events.client(true);
             if (recording) {
-                client = sim::record_link(std::move(client), sim::LinkEnd::Device, *recording, clock_ns);
+                client = sim::record_link(std::move(client), sim::LinkEnd::Device, *recording, time_ns);
             }
             simulator->set_link(client.get());
             heard_ns = now_ns;
@@ -136,7 +145,7 @@ Expected<void> sim(const SimOptions& options) {
             continue;
         }
         if (moved == Status::Ok) continue;
-        const std::int64_t idle_ns = until_ns(simulator->next_boundary_ns(), clock_ns());
+        const std::int64_t idle_ns = until_ns(simulator->next_boundary_ns(), time_ns());
         // Ok, Timeout or a signal: the loop looks at everything again.
         if (client) {
             (void)client->wait(simulator->device().events(), idle_ns);
@@ -146,6 +155,7 @@ Expected<void> sim(const SimOptions& options) {
     }
     simulator->set_link(Link{});
     client.reset();
+    events.ended(simulator->timing().timing());
     return recording ? recording->commit() : Expected<void>();
 }
 

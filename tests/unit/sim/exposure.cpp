@@ -256,16 +256,41 @@ TEST_CASE("a swept plane's light is at its height on the way up and on the way d
     CHECK(field.flashes[0].place_mm.z == Approx(sim::plane_height_mm(display, 6.0)).margin(1e-3));
     CHECK(field.light(field.flashes[0]).x == Approx(1.0).epsilon(1e-5));
 
-    const auto late = [&](std::uint64_t time_ns) {  // By a quarter of a slice; there are 16 in a cycle.
-        return static_cast<double>(time_ns) * 1e-9 * display.cycles_per_second + 0.25 / 16.0;
+    const auto late = [&](std::uint64_t time_ns) {  // By three quarters of a slice; there are 16 in a cycle.
+        return static_cast<double>(time_ns) * 1e-9 * display.cycles_per_second + 0.75 / 16.0;
     };
     const sim::LightField two = exposed(display, page, 1, late).light();
     REQUIRE(two.flashes.size() == 2);
     std::array heights{two.flashes[0].place_mm.z, two.flashes[1].place_mm.z};
     std::ranges::sort(heights);
-    CHECK(heights[0] == Approx(sim::plane_height_mm(display, 5.75)).margin(1e-3));
-    CHECK(heights[1] == Approx(sim::plane_height_mm(display, 6.25)).margin(1e-3));
+    CHECK(heights[0] == Approx(sim::plane_height_mm(display, 5.25)).margin(1e-3));
+    CHECK(heights[1] == Approx(sim::plane_height_mm(display, 6.75)).margin(1e-3));
     CHECK(two.measured[0].x + two.measured[1].x == Approx(1.0).epsilon(1e-5));
+}
+
+TEST_CASE("light that comes to the same slice of the way from several is added up, at its mean place") {
+    DisplayDescription display = rotor_of(4, 2, 8, PixelFormat::Mono1, 1);
+    std::vector<std::byte> page = dark_page(display);
+    for (std::uint32_t slice = 2; slice < 5; ++slice) set_pixel(display, page, {.slice = slice}, 1);
+    // Two cycles: one of them late by a slice and a quarter.
+    const auto cycles_at = [&](std::uint64_t time_ns) {
+        const double cycles = static_cast<double>(time_ns) * 1e-9 * display.cycles_per_second;
+        return cycles < 2.0 ? cycles : cycles + 1.25 / 8.0;
+    };
+    const sim::LightField field = exposed(display, page, 2, cycles_at).light();
+    REQUIRE(field.flashes.size() == 4);
+    std::vector<float> light;
+    for (const sim::Flash& flash : field.flashes) light.push_back(field.light(flash).x);
+    std::ranges::sort(light);
+    CHECK(light[0] == Approx(0.5));
+    CHECK(light[1] == Approx(0.5));
+    CHECK(light[2] == Approx(1.0));
+    CHECK(light[3] == Approx(1.0));
+    const sim::Faults none;
+    const sim::Seats seats(display, 0, 3.5 + 0.125, none);
+    CHECK(std::ranges::any_of(field.flashes, [&](const sim::Flash& flash) {
+        return glm::distance(flash.place_mm, seats.place_mm(0, 0)) < 1e-3;
+    }));
 }
 
 TEST_CASE("half turns light both halves of the way, and count as the same pixels") {
