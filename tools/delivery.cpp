@@ -199,12 +199,22 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
     const SimulationOptions& simulation = options.simulation;
     if (const auto possible = Shutter::check(simulation); !possible) return possible;
     if (!here && !simulation.empty()) {
-        const bool sees = simulation.faults.empty() && simulation.file.empty() && simulation.rotor.empty();
-        return fail(
-            sees ? "--fidelity, --exposure, --trace, --histogram and --compare look at a display in this program "
-                   "and need --to loopback; leave them out"
-                 : "--sim, --fault and --rotor are for a display in this program and need --to loopback; of a "
-                   "distant one, give them to xorvox sim");
+        const char* behaves = !simulation.faults.empty()  ? "--fault"
+                              : !simulation.file.empty()  ? "--sim"
+                              : !simulation.rotor.empty() ? "--rotor"
+                                                          : nullptr;
+        if (behaves != nullptr) {
+            return fail(
+                fmt::format("{} is for a display in this program and needs --to loopback; of a distant one, give "
+                            "it to xorvox sim",
+                            behaves));
+        }
+        const char* looks = !simulation.fidelity.empty()    ? "--fidelity"
+                            : simulation.exposure_s         ? "--exposure"
+                            : !simulation.trace.empty()     ? "--trace"
+                            : !simulation.histogram.empty() ? "--histogram"
+                                                            : "--compare";
+        return fail(fmt::format("{} looks at a display in this program and needs --to loopback; leave it out", looks));
     }
     if (const auto conditions = read_conditions(simulation); !conditions) return tl::unexpected(conditions.error());
     if (options.size) {
