@@ -23,6 +23,10 @@ void add_simulation(CLI::App& app, SimulationOptions& options) {
                    "acceleration=PART, jitter=PART, missed=PART, doubled=PART, noise=PART, stall=S, seed=N; it is then "
                    "watched in time")
         ->type_name("KEY=VALUE,…");
+    app.add_option_function<std::string>(
+           "--seed", [&options](const std::string& text) { options.seed = parse_count("--seed", text, 0xffffffff); },
+           "Of all that is left to chance: packets that are lost, jitter, pulses (default 1)")
+        ->type_name("N");
 }
 
 void add_instruments(CLI::App& app, SimulationOptions& options) {

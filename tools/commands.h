@@ -81,9 +81,10 @@ struct PictureSize {
 
 /// How a simulated display behaves; of those that are in this program, and of `sim`.
 struct SimulationOptions {
-    std::vector<std::string> faults;  ///< As sim::parse_fault() takes them.
-    std::string file;                 ///< Of sim::Conditions; empty: none.
-    std::string rotor;                ///< As sim::parse_rotor() takes it; empty: what `file` says.
+    std::vector<std::string> faults;    ///< As sim::parse_fault() takes them.
+    std::string file;                   ///< Of sim::Conditions; empty: none.
+    std::optional<std::uint32_t> seed;  ///< Of all that is left to chance; none: what `file` and `rotor` say.
+    std::string rotor;                  ///< As sim::parse_rotor() takes it; empty: what `file` says.
 
     // What is seen in time, of displays in this program:
     std::string fidelity;              ///< "strobes", or "edges"; empty: strobes, or edges with `trace`.
@@ -93,8 +94,8 @@ struct SimulationOptions {
     std::string compare;
 
     bool empty() const {
-        return faults.empty() && file.empty() && rotor.empty() && fidelity.empty() && !exposure_s && trace.empty() &&
-               histogram.empty() && compare.empty();
+        return faults.empty() && file.empty() && rotor.empty() && !seed && fidelity.empty() && !exposure_s &&
+               trace.empty() && histogram.empty() && compare.empty();
     }
 };
 

@@ -202,6 +202,7 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
         const char* behaves = !simulation.faults.empty()  ? "--fault"
                               : !simulation.file.empty()  ? "--sim"
                               : !simulation.rotor.empty() ? "--rotor"
+                              : simulation.seed           ? "--seed"
                                                           : nullptr;
         if (behaves != nullptr) {
             return fail(

@@ -24,6 +24,10 @@ Expected<sim::Conditions> read_conditions(const SimulationOptions& options) {
         if (!rotor) return fail("--rotor: " + rotor.error().message);
         conditions.rotor = *rotor;
     }
+    if (options.seed) {
+        conditions.faults.seed = *options.seed;
+        if (conditions.rotor) conditions.rotor->seed = *options.seed;
+    }
     return conditions;
 }
 

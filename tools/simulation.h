@@ -7,7 +7,7 @@
 
 namespace xorvox::tools {
 
-/// What --sim says, and after that what each --fault adds, and the --rotor instead of its own. Reads the file.
+/// What --sim says, and after that what each --fault adds, and the --rotor instead of its own; --seed is that of all. Reads the file.
 Expected<sim::Conditions> read_conditions(const SimulationOptions& options);
 
 }  // namespace xorvox::tools

@@ -85,6 +85,7 @@ TEST_CASE("a rotor that jitters is seen to stray, the same for a seed and otherw
     CHECK(number(in_time(shaken("1")), "stray_mm") > 1.05 * at_rest);
     CHECK(shaken("1") == shaken("1"));
     CHECK(shaken("1") != shaken("2"));
+    CHECK(succeeds(bench.show({"--rotor", "jitter=0.02", "--seed", "2"})).out == shaken("2"));
 }
 
 TEST_CASE("a rotor that stops goes dark with a fault, and the shutter sees that it was less light") {
