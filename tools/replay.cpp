@@ -63,9 +63,10 @@ Expected<void> check(sim::RecordingReader& reader, const DisplayDescription& dis
         if (const auto noted = troubles.note(frames.damage()); !noted) return noted;
     }
     if (frames.latest_ns() <= kLongest_ns) return {};
-    return fail(fmt::format("{}: a packet of it comes {:.3g} s after its beginning, which is more than a day; no such "
-                            "recording is played",
-                            reader.name(), static_cast<double>(frames.latest_ns()) * 1e-9));
+    return fail(
+        fmt::format("{}: a packet of it comes {:.3g} s after its beginning, which is more than a day; no such "
+                    "recording is played",
+                    reader.name(), static_cast<double>(frames.latest_ns()) * 1e-9));
 }
 
 /// What the display in this program said of what it got.
@@ -110,7 +111,7 @@ struct Replayed {
 
 /// Packet by packet in simulated time: the clock goes from boundary to boundary and from packet to packet.
 Expected<Replayed> replay_in_process(const ReplayOptions& options, const DisplayFile& display,
-                                     sim::RecordingReader& reader, Troubles& troubles, io::AtomicFile* png,
+                                     sim::RecordingReader& reader, io::AtomicFile* png,
                                      sim::RecordingWriter* recording) {
     std::uint64_t now_ns = 0;
     auto [near_end, device_end] = transport::make_loopback();
@@ -137,9 +138,7 @@ Expected<Replayed> replay_in_process(const ReplayOptions& options, const Display
         now_ns = std::max(now_ns, moment_ns);
     };
     stop_on_signals();
-    if (playback.seek(from_ns) == Status::Corrupt) {
-        if (const auto noted = troubles.note(playback.damage()); !noted) return tl::unexpected(noted.error());
-    }
+    (void)playback.seek(from_ns);  // Damage was noted by check().
     for (Status status = playback.next(); status != Status::Closed && !asked_to_stop(); status = playback.next()) {
         if (status == Status::Corrupt) continue;  // Noted by check().
         counts = counts || playback.time_ns() >= from_ns;
@@ -171,8 +170,7 @@ Expected<Replayed> replay_in_process(const ReplayOptions& options, const Display
         (void)host_end->send(std::span(ping).first(size));
         pinged_ns = time_ns;
     };
-    Expected<std::optional<LightSeen>> seen = look_at(*local, now_ns, lit, options.delivery, png,
-                                                      meanwhile);
+    Expected<std::optional<LightSeen>> seen = look_at(*local, now_ns, lit, options.delivery, png, meanwhile);
     if (!seen) return tl::unexpected(seen.error());
     replayed.light = std::move(*seen);
     return replayed;
@@ -215,23 +213,20 @@ void print_replayed(const ReplayOptions& options, const DisplayFile& display, co
 /// Gives a stream, at each moment, the frame that the recording had last.
 class FrameFeed {
 public:
-    FrameFeed(const ReplayOptions& options, sim::RecordingReader& reader, const DisplayDescription& display,
-              Troubles& troubles)
+    FrameFeed(const ReplayOptions& options, sim::RecordingReader& reader, const DisplayDescription& display)
         : frames_(reader, display),
-          troubles_(troubles),
+          cycle_ns_(cycle_ns(display)),
           speed_(options.speed.value_or(1.0)),
           from_ns_(to_ns(options.seek_seconds)) {}
 
     Expected<void> begin() {
-        if (frames_.seek(from_ns_) == Status::Corrupt) {
-            if (auto noted = troubles_.note(frames_.damage()); !noted) return noted;
-        }
+        (void)frames_.seek(from_ns_);  // Damage was noted by check().
         // What is shown at the moment where it begins: the last frame before it, or the first one after.
         read();
         while (more_ && next_ns_ <= from_ns_) step();
         if (current_.empty() && more_) step();
         if (current_.empty()) return fail("there is no whole frame to be played; record it anew, or --seek less");
-        begin_ns_ = std::max(from_ns_, current_ns_);
+        begin_ns_ = std::max(from_ns_, begin_of_first());
         return {};
     }
 
@@ -240,8 +235,11 @@ public:
         if (speed_ == 0.0) {
             if (moment.number > 0) step();
         } else {
-            const std::uint64_t now_ns = begin_ns_ + to_ns(moment.seconds * speed_);
-            while (more_ && next_ns_ <= now_ns) step();
+            // The newest frame of this cycle; moments are as exact as half of one.
+            const double ahead = std::max(speed_ - 1.0, 0.0) + 0.5 * std::min(speed_, 1.0);
+            const std::uint64_t until_ns =
+                begin_ns_ + to_ns(moment.seconds * speed_ + ahead * static_cast<double>(cycle_ns_) * 1e-9);
+            while (more_ && next_ns_ <= until_ns) step();
         }
         std::ranges::copy(current_, frame.begin());
         ended_ = !more_;
@@ -255,29 +253,40 @@ private:
         while (status == Status::Corrupt) status = frames_.next();  // Noted by check().
         more_ = status == Status::Ok;
         next_ns_ = frames_.shown_ns();
+        next_asked_ = frames_.frame().present_at_ns != 0;
     }
     void step() {
+        current_asked_ = next_asked_;
         current_.assign(frames_.frame().bytes.begin(), frames_.frame().bytes.end());
         current_ns_ = next_ns_;
         read();
     }
 
+    /// A frame that asked for no moment was shown at the first boundary after it was whole: whole cycles before the
+    /// next one, which did.
+    std::uint64_t begin_of_first() const {
+        if (current_asked_ || !more_ || !next_asked_ || next_ns_ <= current_ns_) return current_ns_;
+        return next_ns_ - (next_ns_ - current_ns_ - 1) / cycle_ns_ * cycle_ns_;
+    }
+
     sim::RecordedFrames frames_;
-    Troubles& troubles_;
+    std::uint64_t cycle_ns_;
     double speed_;
     std::uint64_t from_ns_;
     std::uint64_t begin_ns_ = 0;
     std::vector<std::byte> current_;
     std::uint64_t current_ns_ = 0;
+    bool current_asked_ = false;
+    bool next_asked_ = false;
     bool more_ = false;  ///< frames_ has one after `current_`, to be shown at next_ns_.
     std::uint64_t next_ns_ = 0;
     bool ended_ = false;
 };
 
 Expected<void> replay_over(const ReplayOptions& options, const transport::Address& address, const DisplayFile& display,
-                           sim::RecordingReader& reader, Troubles& troubles, io::AtomicFile* png,
+                           sim::RecordingReader& reader, const Troubles& troubles, io::AtomicFile* png,
                            sim::RecordingWriter* recording) {
-    FrameFeed feed(options, reader, display, troubles);
+    FrameFeed feed(options, reader, display);
     if (const auto begun = feed.begin(); !begun) return begun;
     const FrameSource source = [&feed](const FrameMoment& moment, std::span<std::byte> frame) {
         return feed(moment, frame);
@@ -380,11 +389,12 @@ Expected<void> replay(const ReplayOptions& options) {
     // At another speed the recorded host would not heed what this display has room for.
     const bool as_recorded = !options.speed || *options.speed == 1.0 || *options.speed == 0.0;
     if (address->kind == transport::AddressKind::Loopback && as_recorded) {
-        const auto replayed = replay_in_process(options, *display, *reader, troubles, picture, recorder);
+        const auto replayed = replay_in_process(options, *display, *reader, picture, recorder);
         if (!replayed) return tl::unexpected(replayed.error());
         print_replayed(options, *display, *reader, *replayed, troubles.count());
     } else if (const auto played = replay_over(options, *address, *display, *reader, troubles, picture, recorder);
                !played) {
+        keep_recording(to, recorder);
         return played;
     }
     return finish_recording(to, recorder);

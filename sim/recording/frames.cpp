@@ -68,7 +68,8 @@ std::string RecordedFrames::fault_of(const Block& block) {
     const AssembledFrame& last = assembler_.frame();
     if (last.bytes.empty() || entry.begin != last.begin) {
         if (std::exchange(excused_, true)) return {};
-        return at(block, "the frame that ends here is not whole: a packet of it, or of one that it builds on, is missing");
+        return at(block,
+                  "the frame that ends here is not whole: a packet of it, or of one that it builds on, is missing");
     }
     if (entry.digest != frame_digest(last.bytes)) {
         return at(block, "the digest of the frame before is not that of its bytes");

@@ -23,10 +23,10 @@ public:
     /// Goes to keyframe_before(frames, time_ns), and makes ready for what it builds on.
     Status seek(std::uint64_t time_ns);
 
-    /// Ok: frame() is the next one that is whole. Closed: there are no more. Corrupt: damage() says what; go on. That is
-    /// what the reader calls so, a frame that should be whole here and is not, or is another one than was recorded, an
-    /// index that does not name the frames that follow, and a time that is before the one before it. What follows from
-    /// damage that was told is not told again.
+    /// Ok: frame() is the next one that is whole. Closed: there are no more. Corrupt: damage() says what; go on. That
+    /// is what the reader calls so, a frame that should be whole here and is not, or is another one than was recorded,
+    /// an index that does not name the frames that follow, and a time that is before the one before it. What follows
+    /// from damage that was told is not told again.
     Status next();
 
     const AssembledFrame& frame() const { return assembler_.frame(); }
@@ -47,12 +47,12 @@ private:
     FrameAssembler assembler_;
     DeviceClock clock_;
     std::uint64_t time_ns_ = 0;
-    std::uint64_t block_ns_ = 0;   ///< Of the block before.
+    std::uint64_t block_ns_ = 0;  ///< Of the block before.
     std::uint64_t latest_ns_ = 0;
-    std::size_t number_ = 0;       ///< In the index, of the next frame.
-    bool index_is_right_ = true;   ///< As far as it was compared.
-    bool excused_ = false;         ///< Damage was told, and no frame was whole since.
-    std::string next_damage_;      ///< Of what was taken nevertheless.
+    std::size_t number_ = 0;      ///< In the index, of the next frame.
+    bool index_is_right_ = true;  ///< As far as it was compared.
+    bool excused_ = false;        ///< Damage was told, and no frame was whole since.
+    std::string next_damage_;     ///< Of what was taken nevertheless.
     std::string damage_;
 };
 

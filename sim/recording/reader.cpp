@@ -119,8 +119,8 @@ Expected<void> RecordingReader::read_index() {
     const std::uint64_t index = decode_u64(block.payload.first<kEndBytes>());
     at_ = index;
     if (index < first_block_ || index >= end) {
-        return fail(at(
-            end, fmt::format("the end says that the index is at byte {}, where it cannot be{}", index, advice())));
+        return fail(
+            at(end, fmt::format("the end says that the index is at byte {}, where it cannot be{}", index, advice())));
     }
     const Status status = next(block);
     if (status == Status::Corrupt) return fail(damage_);

@@ -63,7 +63,8 @@ public:
     void rewind() { at_ = first_block_; }
 
 private:
-    RecordingReader(ByteSource source, Damage damage) : source_(std::move(source)), damage_is_(damage), end_(source_.size) {}
+    RecordingReader(ByteSource source, Damage damage)
+        : source_(std::move(source)), damage_is_(damage), end_(source_.size) {}
 
     Expected<void> read_head();
     Expected<void> read_display();

@@ -133,7 +133,7 @@ TEST_CASE("a later minor version is read, and its new kinds of blocks are passed
     const auto crc = sim::encode_u32(wire::crc32c(std::span(bytes).first(12)));
     std::copy(crc.begin(), crc.end(), bytes.begin() + 12);
     bytes.resize(whole.frame_ends.back());
-    const auto header = sim::encode(sim::BlockHeader{static_cast<sim::BlockKind>('?'), 0, 0});
+    const auto header = sim::encode(sim::BlockHeader{static_cast<sim::BlockKind>('?'), 0, 60'000'000});
     bytes.insert(bytes.end(), header.begin(), header.end());
     bytes.insert(bytes.end(), 4, std::byte{0});  // The CRC of nothing.
     auto reader = sim::RecordingReader::open(bytes_source(bytes), sim::Damage::Tolerated);
