@@ -256,7 +256,7 @@ Expected<std::optional<LightSeen>> look_at(LocalDisplay& local, std::uint64_t no
     LightSeen seen;
     sim::LightField light;
     if (local.shutter) {
-        Expected<SeenInTime> in_time = local.shutter->open(simulator, now_ns, options, meanwhile);
+        Expected<SeenInTime> in_time = local.shutter->close(simulator, now_ns, options, meanwhile);
         if (!in_time) return tl::unexpected(in_time.error());
         light = std::move(in_time->light);
         seen.in_time = std::move(*in_time);

@@ -75,6 +75,8 @@ Expected<StreamDelivery> stream_in_process(const DeliveryOptions& options, const
     sim::Simulator& simulator = local->simulator;
     host::Session session(host_end.get(), display, session_options(false, display, feeder.first()));
     host::FrameStream stream(session, display);
+    // What moves is watched from its first frame on.
+    if (local->shutter && options.simulation.exposure_s) local->shutter->open(simulator, options.simulation);
     stop_on_signals();
     while (!asked_to_stop() && (!feeder.done() || !stream.idle())) {
         feeder.feed(stream);
