@@ -161,6 +161,7 @@ Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const 
     }
     Expected<sim::Conditions> conditions = read_conditions(options.simulation);
     if (!conditions) return tl::unexpected(conditions.error());
+    if (const auto possible = check_rotor(*conditions, display); !possible) return tl::unexpected(possible.error());
     wanted.faults = std::move(conditions->faults);
     wanted.rotor = conditions->rotor;
     std::optional<Shutter> shutter;
@@ -169,8 +170,7 @@ Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const 
         if (!made) return tl::unexpected(made.error());
         shutter = std::move(*made);
         wanted.keeps_time = true;
-        const bool edges = options.simulation.fidelity == "edges" || !options.simulation.trace.empty();
-        wanted.fidelity = edges ? sim::Fidelity::Edges : sim::Fidelity::Strobes;
+        wanted.fidelity = Shutter::fidelity(options.simulation);
     }
     Expected<sim::Simulator> simulator = sim::Simulator::make(display, link, wanted);
     if (!simulator) return tl::unexpected(simulator.error());
@@ -315,17 +315,17 @@ Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Addr
     return fail("unknown kind of address");
 }
 
-std::string light_json(const std::optional<LightSeen>& light) {
+std::string light_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
     if (!light) return "null";
     std::string object = sim::to_json(light->statistics);
     while (!object.ends_with('}')) object.pop_back();
     object.pop_back();
-    return fmt::format("{}, \"in_time\": {}}}", object, in_time_json(light->in_time));
+    return fmt::format("{}, \"in_time\": {}}}", object, in_time_json(options.simulation, light->in_time));
 }
 
 std::string picture_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
     return fmt::format("\"picture\": {}, \"light\": {}", options.png.empty() ? "null" : json_string(options.png),
-                       light_json(light));
+                       light_json(options, light));
 }
 
 }  // namespace xorvox::tools

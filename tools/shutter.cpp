@@ -29,6 +29,11 @@ Expected<void> write_image(io::AtomicFile& file, const sim::Image& image) {
     return written ? file.commit() : written;
 }
 
+/// "16.7 ms", "1.50 s".
+std::string duration(double ms) {
+    return ms < 1000.0 ? fmt::format("{:.3g} ms", ms) : fmt::format("{:.2f} s", ms * 1e-3);
+}
+
 }  // namespace
 
 Expected<void> Shutter::check(const SimulationOptions& options) {
@@ -54,6 +59,11 @@ Expected<void> Shutter::check(const SimulationOptions& options) {
 bool Shutter::is_wanted(const SimulationOptions& options, const sim::Conditions& conditions) {
     return conditions.rotor || !options.fidelity.empty() || options.exposure_s || !options.trace.empty() ||
            !options.histogram.empty() || !options.compare.empty();
+}
+
+sim::Fidelity Shutter::fidelity(const SimulationOptions& options) {
+    const bool edges = options.fidelity == "edges" || !options.trace.empty();
+    return edges ? sim::Fidelity::Edges : sim::Fidelity::Strobes;
 }
 
 Expected<Shutter> Shutter::make(const SimulationOptions& options) {
@@ -129,10 +139,10 @@ Expected<SeenInTime> Shutter::close(sim::Simulator& simulator, std::uint64_t now
 void print_timing(const sim::Timing& timing) {
     std::string latency;
     if (timing.latency.frames > 0) {
-        latency = fmt::format("; first light {:.3g} ms after the first packet", timing.latency.mean_ns * 1e-6);
+        latency = fmt::format("; first light {} after the first packet", duration(timing.latency.mean_ns * 1e-6));
         if (timing.latency.frames > 1) {
             latency +=
-                fmt::format(" on average, {:.3g} ms at most", static_cast<double>(timing.latency.most_ns) * 1e-6);
+                fmt::format(" on average, {} at most", duration(static_cast<double>(timing.latency.most_ns) * 1e-6));
         }
     }
     fmt::print("in time: {} frame{} shown, {} late, {} dropped, {} cycles torn{}\n", thousands(timing.presented),
@@ -147,35 +157,44 @@ void print_timing(const sim::Timing& timing) {
 void print_in_time(const SimulationOptions& options, const std::optional<SeenInTime>& seen) {
     if (!seen) return;
     const sim::ExposureStatistics& light = seen->exposure;
-    fmt::print("seen in {:.4g} ms: of {} voxels sent {} were lit, {} not; {} were lit that were not sent\n",
-               light.exposure_ms, thousands(light.sent), thousands(light.lit - light.extra), thousands(light.lost),
-               thousands(light.extra));
+    fmt::print("seen in {}: of {} voxels {} {} were lit, {} not; {} were lit that were not sent\n",
+               duration(light.exposure_ms), thousands(light.sent),
+               seen->timing.presented > 1 ? "of the last frame" : "sent", thousands(light.lit - light.extra),
+               thousands(light.lost), thousands(light.extra));
     if (light.lit > 0) {
         fmt::print(
-            "light: {:.1f} % of what was sent, uneven by {:.1f} %; {:.2f} % of it out of place, by up to {:.3g} "
-            "mm, {:.2g} slices\n",
+            "light: {:.1f} % of what was sent, uneven by {:.1f} %; {:.2f} % of it out of place, by up to {:.2f} "
+            "mm, {:.2f} slices\n",
             100.0 * light.light, 100.0 * light.uniformity.spread, 100.0 * light.outside, light.stray_mm,
             light.stray_slices);
     }
     print_timing(seen->timing);
     if (!options.trace.empty()) fmt::print("trace: {}\n", options.trace);
     if (seen->trace_ended_ms) {
-        warn(fmt::format("{} is full after {:.3g} ms; a shorter --exposure makes a whole one", options.trace,
-                         *seen->trace_ended_ms));
+        warn(fmt::format("{} is full after {}; a shorter --exposure makes a whole one", options.trace,
+                         duration(*seen->trace_ended_ms)));
     }
     if (!options.histogram.empty()) fmt::print("histogram: {}\n", options.histogram);
     if (!options.compare.empty()) fmt::print("comparison: {}\n", options.compare);
 }
 
-std::string in_time_json(const std::optional<SeenInTime>& seen) {
+std::string in_time_json(const SimulationOptions& options, const std::optional<SeenInTime>& seen) {
     if (!seen) return "null";
     const auto object = [](std::string text) {
         while (text.ends_with('\n')) text.pop_back();
         return text;
     };
-    return fmt::format("{{\"exposure\": {}, \"timing\": {}, \"trace_ended_ms\": {}}}",
-                       object(sim::to_json(seen->exposure)), object(sim::to_json(seen->timing)),
-                       seen->trace_ended_ms ? fmt::format("{:.6g}", *seen->trace_ended_ms) : "null");
+    std::string faults;
+    for (const std::string& fault : options.faults) faults += (faults.empty() ? "" : ", ") + json_string(fault);
+    return fmt::format(
+        "{{\"setup\": {{\"fidelity\": \"{}\", \"rotor\": {}, \"faults\": [{}], \"sim\": {}, \"seed\": {}}}, "
+        "\"exposure\": {}, \"timing\": {}, \"trace_ended_ms\": {}}}",
+        Shutter::fidelity(options) == sim::Fidelity::Edges ? "edges" : "strobes",
+        options.rotor.empty() ? "null" : json_string(options.rotor), faults,
+        options.file.empty() ? "null" : json_string(options.file),
+        options.seed ? fmt::format("{}", *options.seed) : "null", object(sim::to_json(seen->exposure)),
+        object(sim::to_json(seen->timing)),
+        seen->trace_ended_ms ? fmt::format("{:.6g}", *seen->trace_ended_ms) : "null");
 }
 
 }  // namespace xorvox::tools

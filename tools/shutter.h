@@ -35,6 +35,9 @@ public:
     /// Whether `options` or `conditions` ask for one.
     static bool is_wanted(const SimulationOptions& options, const sim::Conditions& conditions);
 
+    /// How closely it looks.
+    static sim::Fidelity fidelity(const SimulationOptions& options);
+
     /// Begins the files that `options` name.
     static Expected<Shutter> make(const SimulationOptions& options);
 
@@ -60,7 +63,7 @@ void print_timing(const sim::Timing& timing);
 /// Lines for people; nothing where `seen` is empty.
 void print_in_time(const SimulationOptions& options, const std::optional<SeenInTime>& seen);
 
-/// A JSON object, or "null".
-std::string in_time_json(const std::optional<SeenInTime>& seen);
+/// A JSON object, what was asked for included, or "null".
+std::string in_time_json(const SimulationOptions& options, const std::optional<SeenInTime>& seen);
 
 }  // namespace xorvox::tools
