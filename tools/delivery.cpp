@@ -1,6 +1,7 @@
 #include "tools/delivery.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
@@ -229,9 +230,15 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
         return fail("--hold keeps a display at the other end of a tcp link lit; use it with --to tcp:HOST:PORT");
     }
     std::error_code missing;
-    for (const std::string& out : {options.png, options.record, address.path}) {
-        if (!out.empty() && !input.empty() && std::filesystem::equivalent(out, input, missing)) {
-            return fail(out + " is the input itself; choose another name for the output");
+    const std::array outputs{options.png,      simulation.compare, simulation.histogram,
+                             simulation.trace, options.record,     address.path};
+    for (auto out = outputs.begin(); out != outputs.end(); ++out) {
+        if (out->empty()) continue;
+        if (!input.empty() && std::filesystem::equivalent(*out, input, missing)) {
+            return fail(*out + " is the input itself; choose another name for the output");
+        }
+        if (std::find(outputs.begin(), out, *out) != out) {
+            return fail(*out + " is asked for twice; choose another name for one of the outputs");
         }
     }
     return {};

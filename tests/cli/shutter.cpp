@@ -128,6 +128,7 @@ TEST_CASE("what cannot be watched is refused in one line, and leaves no file") {
     refused(bench.show({"--trace", trace, "--fidelity", "strobes"}), "leave out one of them");
     refused(bench.show({"--histogram", "light.txt"}), ".csv");
     refused(bench.show({"--compare", "sides.gif"}), ".png");
+    refused(bench.show({"--compare", "a.png", "--png", "a.png"}), "a.png is asked for twice");
     refused(bench.show({"--trace", bench.folder.path("nowhere/pins.vcd")}), "--trace");
     refused(bench.show({"--fidelity", "edges", "--to", "tcp:127.0.0.1:1"}), "--to loopback");
     refused({"show", bench.cube, "--display", "cube8-595", "--rotor", "stall=1"}, "at rest");
