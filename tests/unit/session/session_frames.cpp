@@ -270,7 +270,7 @@ TEST_CASE("deltas are based on the last accepted frame") {
 
 TEST_CASE("a keyframe is sent each interval that the host wants") {
     SessionOptions options;
-    options.keyframe_interval_ns = 3'000 * kMs;
+    options.keyframe_interval_ns = 30 * kMs;
     Rig rig(options);
     rig.connect();
     std::string keys;
@@ -279,7 +279,7 @@ TEST_CASE("a keyframe is sent each interval that the host wants") {
         keys += packets.front().as<FrameBegin>().flags == kFrameDelta ? '.' : 'k';
         rig.device.accept(packets.back().as<FrameEnd>());
         (void)rig.poll();
-        rig.now_ns += 1'000 * kMs;
+        rig.now_ns += 10 * kMs;
     }
     CHECK(keys == "k..k..k.");
 }
