@@ -121,8 +121,10 @@ TEST_CASE("each plane gives half the light of the one before, whatever the LEDs'
         for (const std::uint32_t min_on_ns : {0u, 1u, 6000u}) {
             const device::ModulationConfig config{
                 .row_groups = 2, .planes = 4, .rise_ns = rise_ns, .fall_ns = fall_ns, .min_on_ns = min_on_ns};
-            const std::uint64_t least_ns = device::modulate(config, 0).total_ns() * 40;
-            for (const std::uint64_t available_ns : {least_ns, least_ns / 2, least_ns * 3}) {
+            device::Modulation shortest = device::modulate(config, 0);
+            shortest.planes = config.planes;
+            const std::uint64_t least_ns = shortest.total_ns();
+            for (const std::uint64_t available_ns : {least_ns, least_ns + 101, least_ns * 3}) {
                 const device::Modulation slots = device::modulate(config, available_ns);
                 CAPTURE(rise_ns, fall_ns, min_on_ns, available_ns);
                 REQUIRE(slots.planes == 4);
