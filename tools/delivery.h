@@ -84,7 +84,7 @@ Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Addr
                            io::AtomicFile* png, sim::RecordingWriter* recording = nullptr);
 
 /// What a display in this program showed, as a JSON object; "null" of another one.
-std::string light_json(const std::optional<LightSeen>& light);
+std::string light_json(const DeliveryOptions& options, const std::optional<LightSeen>& light);
 
 /// Members of a JSON object: the picture and the light.
 std::string picture_json(const DeliveryOptions& options, const std::optional<LightSeen>& light);
