@@ -118,9 +118,10 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
-host::SessionOptions session_options(bool distant, const DisplayDescription& display,
-                                     std::span<const std::byte> frame) {
+host::SessionOptions session_options(bool distant, const DisplayDescription& display, std::span<const std::byte> frame,
+                                     bool recorded) {
     host::SessionOptions options;
+    if (recorded) options.keyframe_interval_ns = 1'000'000'000;
     // A slow display shows a frame a cycle after it came.
     options.present_timeout_ns = std::max(options.present_timeout_ns, static_cast<std::int64_t>(2 * cycle_ns(display)));
     const std::uint32_t number = distant ? std::random_device()() : wire::crc32c(frame);
@@ -148,6 +149,11 @@ Expected<void> finish_recording(const DeliveryOptions& options, sim::RecordingWr
                    static_cast<double>(recording->duration_ns()) * 1e-9, options.record);
     }
     return {};
+}
+
+void keep_recording(const DeliveryOptions& options, sim::RecordingWriter* recording) {
+    if (recording == nullptr || recording->frames() == 0) return;
+    if (const auto kept = finish_recording(options, recording); !kept) warn(kept.error().message);
 }
 
 Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const DisplayDescription& display,

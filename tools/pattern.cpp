@@ -158,7 +158,10 @@ Expected<void> show_still(const DeliveryOptions& options, const transport::Addre
     }
     const std::uint64_t most_flashes = std::min(lit.pixels, slices * lit.most_in_slice);
     const Expected<Delivery> delivery = deliver(options, address, display, frame, most_flashes, png, recording);
-    if (!delivery) return tl::unexpected(delivery.error());
+    if (!delivery) {
+        keep_recording(options, recording);
+        return tl::unexpected(delivery.error());
+    }
     const std::uint64_t slice_pixels = frame_pixels(display) / display.slices;
     if (options.json) {
         fmt::print(

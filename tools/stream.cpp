@@ -73,7 +73,8 @@ Expected<StreamDelivery> stream_in_process(const DeliveryOptions& options, const
     Expected<LocalDisplay> local = make_local_display(options, display, device_end.get());
     if (!local) return tl::unexpected(local.error());
     sim::Simulator& simulator = local->simulator;
-    host::Session session(host_end.get(), display, session_options(false, display, feeder.first()));
+    host::Session session(host_end.get(), display,
+                          session_options(false, display, feeder.first(), !options.record.empty()));
     host::FrameStream stream(session, display);
     // What moves is watched from its first frame on.
     if (local->shutter && options.simulation.exposure_s) local->shutter->open(simulator, options.simulation);
@@ -100,7 +101,7 @@ Expected<StreamDelivery> stream_over(Link link, const DeliveryOptions& options, 
                                      Feeder& feeder) {
     const bool two_way = link.info().two_way;
     const auto now_ns = [two_way] { return two_way ? clock_ns() : 0; };
-    host::Session session(link, display, session_options(two_way, display, feeder.first()));
+    host::Session session(link, display, session_options(two_way, display, feeder.first(), !options.record.empty()));
     host::FrameStream stream(session, display);
     stop_on_signals();
     StreamDelivery delivery;
