@@ -22,14 +22,16 @@ struct ExposedVoxel {
     std::uint32_t code = 0;    ///< That was sent: bits that are shown are set, or none.
     glm::vec3 sent{0.0f};      ///< Its steady light, linear, and
     glm::vec3 light{0.0f};     ///< what was lit of it, wherever that was.
+    double due = 1.0;          ///< Of `sent`, in this time: Exposure::due() of its slice.
     glm::vec3 outside{0.0f};   ///< What of that was further from its sample than tolerance_mm.
     glm::dvec3 place_mm{0.0};  ///< Of the sample as it is declared.
     glm::dvec3 seen_mm{0.0};   ///< Of its light, where it was lit: of several places the furthest from the sample.
     double tolerance_mm = 0.0;
-    double stray_mm = 0.0;      ///< How far its light was from its sample at most,
-    double stray_slices = 0.0;  ///< and how many slices early or late.
+    double stray_mm = 0.0;  ///< How far its light was from its sample at most,
+    double stray_slices =
+        0.0;  ///< and how many slices early or late, or away through FaultKind::SwappedSlices and Phase.
 
-    bool is_lost() const { return sent != glm::vec3(0.0f) && light == glm::vec3(0.0f); }
+    bool is_lost() const { return due > 0.0 && sent != glm::vec3(0.0f) && light == glm::vec3(0.0f); }
     bool is_extra() const { return sent == glm::vec3(0.0f) && light != glm::vec3(0.0f); }
 };
 

@@ -376,6 +376,56 @@ TEST_CASE("rows that never stay the same are added up, at the same light") {
     CHECK(greatest_difference(lights_anywhere(exposure), sum) < 2e-6);
 }
 
+TEST_CASE("an exposure's memory has a bound, and no light is lost to it") {
+    DisplayDescription display = hub75_rotor();
+    display.slices = 4;
+    std::mt19937 random(11);
+    double ahead = 0.0;
+    std::uint64_t time_ns = 0;
+    constexpr std::uint32_t kStrobes = 20'000;
+    const sim::Exposure::CyclesAt cycles_at = [&](std::uint64_t) { return ahead; };
+    sim::Exposure exposure(display, display, cycles_at, 0, std::uint64_t{kStrobes} * 1000);
+    std::vector<std::byte> bits(4 * 3 * 2);
+    std::uint32_t lit = 0;
+    for (std::uint32_t i = 0; i < kStrobes; ++i, time_ns += 1000) {
+        for (std::byte& byte : bits) byte = static_cast<std::byte>(random());
+        bits[0] |= std::byte{1};
+        bits[1] &= std::byte{0x0f};
+        ahead = static_cast<double>(random() % 1000) / 1000.0;
+        sim::Strobe strobe{.on_ns = time_ns, .off_ns = time_ns + 1000, .row_group = sim::Strobe::kAllRows, .slice = 2};
+        for (std::uint32_t p = 0; p < 2; ++p) {
+            strobe.panels[p] = {.first = bits.data(), .row_bytes = 6, .channel_bytes = {0, 2, 4}};
+        }
+        exposure.add(strobe);
+        ++lit;
+        REQUIRE(exposure.bytes() <= sim::Exposure::most_bytes(display));
+    }
+    // The pixel that was always lit has all of the light, at all of its few places.
+    const double full = sim::full_light_ns(display) * 1e-9 * display.cycles_per_second;
+    std::size_t places = 0;
+    double light = 0.0;
+    exposure.for_each_place(2, 1, 0, [&](const sim::ExposedRow& row) {
+        ++places;
+        light += double{row.light[0].x};
+    });
+    CHECK(light == Approx((1000.0 - 100.0 + 50.0) / 1000.0 / full).epsilon(1e-4));
+    CHECK(places <= 64 + 8);
+}
+
+TEST_CASE("a page that stays takes little memory, wherever the display strays to") {
+    const DisplayDescription display = hub75_rotor();
+    const TimeAt time_at = perfect_time(display);
+    double ahead = 0.0;
+    const auto cycles_at = [&](std::uint64_t ns) {
+        return static_cast<double>(ns) * 1e-9 * display.cycles_per_second * 1.0037 + ahead;
+    };
+    sim::Exposure exposure(display, display, cycles_at, 0, time_at(500 * device::kCycle));
+    const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) { exposure.add(strobe); });
+    scan_page(display, white_page(display), 500, *scan, time_at);
+    const std::size_t rows = 2 * 4 * 16;
+    CHECK(exposure.bytes() < rows * 2000);
+}
+
 TEST_CASE("a shutter cuts the light of a strobe") {
     const DisplayDescription display = stack_of(2, 1, 1);
     sim::Exposure exposure(display, display, {}, 1000, 10'001'000);  // A cycle.
