@@ -22,9 +22,10 @@ namespace {
 
 constexpr Color kGround{18, 20, 26};
 constexpr Color kInk{225, 228, 235};
-constexpr float kGrey = 0.35f;       ///< Of light that is as it was sent.
-constexpr double kChanged = 0.25;    ///< Part of the light sent.
-constexpr float kMarkShows = 0.85f;  ///< How much of a mark is seen through what stands before it.
+constexpr float kGrey = 0.35f;     ///< Of light that is as it was sent.
+constexpr double kChanged = 0.25;  ///< Part of the light sent.
+constexpr Color kAsSent{128, 128, 128};
+constexpr float kShinesThrough = 0.3f;  ///< How much of a difference is seen through what stands before it.
 constexpr int kRow = 34;
 constexpr int kMargin = 20;
 
@@ -40,8 +41,7 @@ constexpr std::array<MarkStyle, 4> kMarks{{{"lost", {213, 94, 0}, {1.0f, 0.12f, 
                                            {"displaced", {86, 180, 233}, {0.08f, 0.45f, 1.0f}},
                                            {"changed", {204, 121, 167}, {0.75f, 0.12f, 0.5f}}}};
 
-/// In this order they are laid over each other: what is missing must not be hidden.
-constexpr std::array<std::size_t, kMarks.size()> kFromBelow{1, 2, 3, 0};
+constexpr std::size_t kDisplaced = 2;
 
 /// Light of its own colour.
 class Fields {
@@ -53,16 +53,18 @@ public:
     }
 
     LightField sent;
-    LightField faithful;  ///< Lit as it was sent.
-    std::array<LightField, kMarks.size()> marked;
+    LightField differences;  ///< And what was lit as it was sent, in grey.
+    LightField marks;        ///< Those that are no such.
     LightField all;
     std::array<std::size_t, kMarks.size()> counts{};
     std::size_t voxels = 0;
+    std::size_t as_sent = 0;
+    double displaced_mm = 0.0;  ///< At most.
 };
 
 bool is_changed(const ExposedVoxel& voxel) {
     for (int channel = 0; channel < 3; ++channel) {
-        const double away = std::abs(double{voxel.light[channel]} - double{voxel.sent[channel]});
+        const double away = std::abs(double{voxel.light[channel]} / voxel.due - double{voxel.sent[channel]});
         const double most = std::max({voxel.sent.x, voxel.sent.y, voxel.sent.z});
         if (away > kChanged * most) return true;
     }
@@ -76,14 +78,19 @@ Fields fields_of(const Exposure& exposure, std::span<const std::byte> page, std:
             fields.add(fields.sent, voxel.place_mm, voxel.sent);
             ++fields.voxels;
         }
-        const std::array<bool, kMarks.size()> is{voxel.is_lost(), voxel.is_extra(), voxel.outside != glm::vec3(0.0f),
-                                                 !voxel.is_lost() && !voxel.is_extra() && is_changed(voxel)};
+        const std::array<bool, kMarks.size()> is{
+            voxel.is_lost(), voxel.is_extra(), voxel.outside != glm::vec3(0.0f),
+            !voxel.is_lost() && !voxel.is_extra() && voxel.due > 0.0 && is_changed(voxel)};
         for (std::size_t mark = 0; mark < is.size(); ++mark) fields.counts[mark] += is[mark];
         const auto first = static_cast<std::size_t>(std::ranges::find(is, true) - is.begin());
-        if (first == is.size()) {
-            fields.add(fields.faithful, voxel.seen_mm, glm::vec3(kGrey));
-        } else {
-            fields.add(fields.marked[first], voxel.is_lost() ? voxel.place_mm : voxel.seen_mm, kMarks[first].light);
+        if (voxel.outside != glm::vec3(0.0f)) fields.displaced_mm = std::max(fields.displaced_mm, voxel.stray_mm);
+        if (first < is.size()) {
+            const glm::dvec3& place_mm = voxel.is_lost() ? voxel.place_mm : voxel.seen_mm;
+            fields.add(fields.differences, place_mm, kMarks[first].light);
+            fields.add(fields.marks, place_mm, kMarks[first].light);
+        } else if (voxel.light != glm::vec3(0.0f)) {
+            fields.add(fields.differences, voxel.seen_mm, glm::vec3(kGrey));
+            ++fields.as_sent;
         }
     });
     return fields;
@@ -106,7 +113,7 @@ LightField outermost(const LightField& all) {
 
 void blend(Image& under, const Picture& over) {
     for (std::size_t i = 0; i < over.cover.size(); ++i) {
-        const float part = kMarkShows * over.cover[i];
+        const float part = kShinesThrough * over.cover[i];
         for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
             const float mixed = glm::mix(static_cast<float>(under.rgb[c]), static_cast<float>(over.image.rgb[c]), part);
             under.rgb[c] = static_cast<std::uint8_t>(std::lround(mixed));
@@ -139,8 +146,12 @@ int place_legend(Canvas* canvas, int width, int top, const Fields& fields) {
         x += wide + 32;
     };
     entry(fmt::format("voxels sent: {}", fields.voxels), nullptr);
+    entry(fmt::format("as sent: {}", fields.as_sent), &kAsSent);
     for (std::size_t i = 0; i < kMarks.size(); ++i) {
-        entry(fmt::format("{}: {}", kMarks[i].name, fields.counts[i]), &kMarks[i].color);
+        std::string label = fmt::format("{}: {}", kMarks[i].name, fields.counts[i]);
+        if (fields.displaced_mm > 0.0 && i == kDisplaced)
+            label += fmt::format(" (up to {:.3g} mm)", fields.displaced_mm);
+        entry(label, &kMarks[i].color);
     }
     return rows;
 }
@@ -156,29 +167,32 @@ Expected<Picture> render_comparison(const Exposure& exposure, std::span<const st
     in_view.framed = &framed;
     const Expected<Picture> sent = render_perspective(display, fields.sent, in_view);
     if (!sent) return sent;
-    Expected<Picture> lit = render_perspective(display, fields.faithful, in_view);
+    const Expected<Picture> lit = render_perspective(display, exposure.light(), in_view);
     if (!lit) return lit;
-    for (const std::size_t mark : kFromBelow) {
-        if (fields.marked[mark].flashes.empty()) continue;
-        const Expected<Picture> marks = render_perspective(display, fields.marked[mark], in_view);
+    Expected<Picture> differences = render_perspective(display, fields.differences, in_view);
+    if (!differences) return differences;
+    if (!fields.marks.flashes.empty()) {
+        const Expected<Picture> marks = render_perspective(display, fields.marks, in_view);
         if (!marks) return marks;
-        blend(lit->image, *marks);
+        blend(differences->image, *marks);
     }
 
-    const std::uint32_t width = 2 * options.width;
+    const std::uint32_t width = 3 * options.width;
     const int columns = static_cast<int>(width);
     const int rows = place_legend(nullptr, columns, 0, fields);
     const std::uint32_t top = kRow;
     Canvas canvas(width, top + options.height + static_cast<std::uint32_t>(kRow * rows), kGround);
     const int title = (kRow + text_height()) / 2;
     canvas.text({kMargin, title}, "sent", kInk);
-    canvas.text({columns / 2 + kMargin, title}, "lit", kInk);
+    canvas.text({columns / 3 + kMargin, title}, "lit", kInk);
+    canvas.text({2 * columns / 3 + kMargin, title}, "differences", kInk);
     (void)place_legend(&canvas, columns, static_cast<int>(top + options.height), fields);
 
     Picture picture;
     picture.image = canvas.image();
     paste(picture.image, sent->image, 0, top);
     paste(picture.image, lit->image, options.width, top);
+    paste(picture.image, differences->image, 2 * options.width, top);
     picture.covered = sent->covered;
     picture.clipped = sent->clipped;
     picture.drawn_by = sent->drawn_by;

@@ -35,12 +35,13 @@ public:
           declared_(display_, panel, slice + 0.5, none_),
           begin_(display_, panel, static_cast<double>(slice), none_),
           end_(display_, panel, slice + 1.0, none_),
+          due_(exposure.due(slice)),
           voxels_(display_.panels[panel].columns) {}
 
     void start(std::uint32_t row) {
         row_ = row;
         for (std::uint32_t column = 0; column < voxels_.size(); ++column) {
-            voxels_[column] = {.slice = slice_, .panel = panel_, .row = row, .column = column};
+            voxels_[column] = {.slice = slice_, .panel = panel_, .row = row, .column = column, .due = due_};
         }
     }
 
@@ -55,6 +56,7 @@ public:
     }
 
     void add(const ExposedRow& lit) {
+        const double late = stray_slices(lit);
         const Seats found(exposure_.built(), panel_, lit.at, exposure_.faults());
         for (std::uint32_t mounted = 0; mounted < lit.light.size(); ++mounted) {
             const glm::vec3& light = lit.light[mounted];
@@ -68,22 +70,40 @@ public:
             voxel.light += light;
             if (stray > voxel.tolerance_mm) voxel.outside += light;
             voxel.stray_mm = std::max(voxel.stray_mm, stray);
-            voxel.stray_slices = std::max(voxel.stray_slices, std::abs(lit.late));
+            voxel.stray_slices = std::max(voxel.stray_slices, late);
         }
     }
 
 private:
+    /// From the slice that was meant to where light is, faults counted: what turns and what is counted comes by again.
+    double stray_slices(const ExposedRow& lit) const {
+        const double phase = exposure_.faults().late_slices();
+        if (display_.kind == DisplayKind::FreePoints) return std::abs(phase);
+        const double slices = display_.slices;
+        const double away = lit.at - (slice_ + 0.5) + phase;
+        if (display_.kind == DisplayKind::StackedPlanes) {
+            const double plane = std::floor(slice_ + 0.5 + away);
+            return std::abs(plane - std::floor(plane / slices) * slices - slice_);
+        }
+        if (display_.kind == DisplayKind::SweptPlane) return std::abs(away);
+        // Of half turns the second one is as good as the first.
+        return std::abs(std::remainder(away, slices));
+    }
+
     double tolerance_mm(std::uint32_t column) const {
         double way_mm = 0.0;
         switch (display_.kind) {
             case DisplayKind::StackedPlanes:
             case DisplayKind::FreePoints: break;
-            case DisplayKind::Helix: way_mm = display_.motion.stroke_mm / display_.slices; break;
+            case DisplayKind::Helix: way_mm = display_.motion.stroke_mm / display_.slices / 2.0; break;
             case DisplayKind::SweptPlane:
-            case DisplayKind::RotatingPanel:
-                way_mm = glm::distance(begin_.place_mm(row_, column), end_.place_mm(row_, column));
+            case DisplayKind::RotatingPanel: {
+                const glm::dvec3 middle_mm = declared_.place_mm(row_, column);
+                way_mm = std::max(glm::distance(middle_mm, begin_.place_mm(row_, column)),
+                                  glm::distance(middle_mm, end_.place_mm(row_, column)));
+            }
         }
-        return way_mm / 2.0 + reach_mm_;
+        return way_mm + reach_mm_;
     }
 
     const Exposure& exposure_;
@@ -96,6 +116,7 @@ private:
     Seats declared_;
     Seats begin_;
     Seats end_;
+    double due_;
     std::vector<ExposedVoxel> voxels_;
 };
 

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,12 +15,21 @@
 #include "sim/pixel_light.h"
 #include "sim/pixel_rows.h"
 #include "sim/seats.h"
+#include "sim/slice_visits.h"
 
 namespace xorvox::sim {
 namespace {
 
 constexpr double kSamePlace = 1.0 / 16.0;  ///< Slices, to both sides.
-constexpr std::size_t kMostPatterns = 32;
+constexpr double kSamePart = 0.5;          ///< Of the way from the middle of the slice, where that is further.
+constexpr std::size_t kMostPatterns = 64;
+constexpr std::size_t kMostSums = 8;
+
+/// How far places are apart that are one: what is far from its slice need not be told apart as closely as what is near
+/// it, and so a display that strays widely has few more places than one that stands still.
+double same_place(double late) {
+    return std::abs(late) <= 0.5 ? kSamePlace : kSamePart * std::abs(late);
+}
 
 bool is_dark(const std::byte* bits, std::size_t size) {
     std::uint64_t any = 0;
@@ -51,17 +61,34 @@ struct Pattern {
 
 /// Light of patterns that were too many, by pixel and channel.
 struct Sum {
-    double late = 0.0;  ///< Whole slices.
     double light_ns = 0.0;
     double moment = 0.0;
     std::vector<float> pixels;
+
+    double mean_late() const { return moment / light_ns; }
+    void join(const Sum& other) {
+        light_ns += other.light_ns;
+        moment += other.moment;
+        for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] += other.pixels[i];
+    }
 };
 
 struct Row {
     std::vector<Pattern> patterns;
     std::vector<std::byte> bits;  ///< All that differ.
-    std::vector<Sum> sums;
+    std::vector<Sum> sums;        ///< By place.
+
+    std::size_t bytes() const {
+        std::size_t all = patterns.capacity() * sizeof(Pattern) + bits.capacity() + sums.capacity() * sizeof(Sum);
+        for (const Sum& sum : sums) all += sum.pixels.capacity() * sizeof(float);
+        return all;
+    }
 };
+
+/// How many half turns differ.
+std::uint32_t half_turns_of(const DisplayDescription& display) {
+    return display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0 ? 2 : 1;
+}
 
 struct PanelRows {
     std::uint32_t columns = 0;
@@ -88,12 +115,15 @@ struct Exposure::Impl {
     std::size_t slice_rows = 0;
     std::vector<Row> rows;  ///< Of each step.
     double scale = 1.0;     ///< From nanoseconds to light.
+    double open_cycles = 0.0;
+    SliceVisits visits{display};
 
     OnTheWay find(const Strobe& strobe) const;
     void add(const Strobe& strobe);
     void add_row(Row& row, const PanelRows& panel, const StrobeRows& from, std::uint32_t r, double light_ns,
                  double late) const;
     void fold(Row& row, const PanelRows& panel) const;
+    Sum& sum_at(Row& row, const PanelRows& panel, double late) const;
     template <class Give>
     void for_each_lit_piece(const std::byte* bits, const PanelRows& panel, bool mirrored, const Give& give) const;
     void add_anywhere(const Row& row, const PanelRows& panel, bool mirrored, std::span<glm::vec3> light) const;
@@ -154,6 +184,7 @@ OnTheWay Exposure::Impl::find(const Strobe& strobe) const {
 
 void Exposure::Impl::add(const Strobe& strobe) {
     assert((strobe.plane == Strobe::kLevels) == of_levels && strobe.slice < display.slices);
+    visits.add(strobe, from_ns, to_ns);
     const std::uint64_t on_ns = std::max(strobe.on_ns, from_ns);
     const std::uint64_t off_ns = std::min(strobe.off_ns, to_ns);
     if (on_ns >= off_ns) return;
@@ -202,8 +233,9 @@ void Exposure::Impl::add_row(Row& row, const PanelRows& panel, const StrobeRows&
     while (bits < known && !is_same(bits)) ++bits;
     if (bits < known) {
         // Most often it is where it was before.
+        const double same = same_place(late);
         for (auto pattern = row.patterns.rbegin(); pattern != row.patterns.rend(); ++pattern) {
-            if (pattern->bits != bits || std::abs(late - double{pattern->late}) > kSamePlace) continue;
+            if (pattern->bits != bits || std::abs(late - double{pattern->late}) > same) continue;
             pattern->light_ns += light_ns;
             pattern->moment += light_ns * late;
             return;
@@ -222,23 +254,48 @@ void Exposure::Impl::add_row(Row& row, const PanelRows& panel, const StrobeRows&
 void Exposure::Impl::fold(Row& row, const PanelRows& panel) const {
     const std::size_t size = pieces * panel.piece_bytes;
     for (const Pattern& pattern : row.patterns) {
-        const double late = std::round(double{pattern.late});
-        auto sum = std::ranges::find(row.sums, late, &Sum::late);
-        if (sum == row.sums.end()) {
-            row.sums.push_back({.late = late});
-            sum = row.sums.end() - 1;
-            sum->pixels.resize(std::size_t{channels} * panel.columns);
-        }
-        sum->light_ns += pattern.light_ns;
-        sum->moment += pattern.moment;
+        Sum& sum = sum_at(row, panel, pattern.mean_late());
+        sum.light_ns += pattern.light_ns;
+        sum.moment += pattern.moment;
         const auto light = static_cast<float>(pattern.light_ns);
         const std::byte* const bits = row.bits.data() + pattern.bits * size;
         for_each_lit_piece(bits, panel, false, [&](std::uint32_t column, std::uint32_t c, float part) {
-            sum->pixels[std::size_t{channels} * column + c] += part * light;
+            sum.pixels[std::size_t{channels} * column + c] += part * light;
         });
     }
     row.patterns.clear();
     row.bits.clear();
+}
+
+/// The sum for light that is so late. Where there is none at that place and no room for one more, the two that are
+/// nearest to each other, for how far they are away, become one.
+Sum& Exposure::Impl::sum_at(Row& row, const PanelRows& panel, double late) const {
+    std::vector<Sum>& sums = row.sums;
+    const double same = std::max(same_place(late), 0.5);
+    for (Sum& sum : sums) {
+        if (std::abs(sum.mean_late() - late) <= same) return sum;
+    }
+    sums.reserve(kMostSums);
+    std::vector<float> room;
+    if (sums.size() == kMostSums) {
+        std::size_t nearest = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i + 1 < sums.size(); ++i) {
+            const double from = sums[i].mean_late();
+            const double to = sums[i + 1].mean_late();
+            const double apart = (to - from) / std::max({std::abs(from), std::abs(to), 1.0});
+            if (apart >= least) continue;
+            least = apart;
+            nearest = i;
+        }
+        const auto other = sums.begin() + static_cast<std::ptrdiff_t>(nearest) + 1;
+        sums[nearest].join(*other);
+        room = std::move(other->pixels);
+        sums.erase(other);
+    }
+    room.assign(std::size_t{channels} * panel.columns, 0.0f);
+    const auto after = std::ranges::find_if(sums, [&](const Sum& sum) { return sum.mean_late() > late; });
+    return *sums.insert(after, Sum{0.0, 0.0, std::move(room)});
 }
 
 /// What was lit at many places is taken apart once. `mirrored`: the light runs the other way round.
@@ -319,7 +376,7 @@ Exposure::Exposure(const DisplayDescription& display, const DisplayDescription& 
                    std::uint64_t from_ns, std::uint64_t to_ns, Faults faults)
     : impl_(std::make_unique<Impl>(Impl{display, built, std::move(cycles_at), from_ns, to_ns, std::move(faults)})) {
     Impl& impl = *impl_;
-    if (display.kind == DisplayKind::RotatingPanel && display.sweep_deg < 270.0) impl.half_turns = 2;
+    impl.half_turns = half_turns_of(display);
     for (std::uint32_t p = 0; p < display.panel_count; ++p) {
         const Panel& panel = display.panels[p];
         const std::size_t plane_bytes = (std::size_t{panel.columns} + 7) / 8;
@@ -335,8 +392,8 @@ void Exposure::close(std::uint64_t to_ns) {
     Impl& impl = *impl_;
     assert(to_ns > impl.from_ns);
     impl.to_ns = to_ns;
-    const double cycles = static_cast<double>(to_ns - impl.from_ns) * 1e-9 * impl.display.cycles_per_second;
-    const double full_ns = full_light_ns(impl.display) * cycles;
+    impl.open_cycles = static_cast<double>(to_ns - impl.from_ns) * 1e-9 * impl.display.cycles_per_second;
+    const double full_ns = full_light_ns(impl.display) * impl.open_cycles;
     impl.scale = full_ns > 0.0 ? 1.0 / full_ns : 0.0;
 }
 
@@ -384,6 +441,35 @@ bool Exposure::add_row_light(std::uint32_t slice, std::uint32_t panel, std::uint
         impl_->add_anywhere(found, impl_->panels[panel], half == 1 && !impl_->of_levels, light);
     }
     return any;
+}
+
+double Exposure::cycles() const {
+    return impl_->open_cycles;
+}
+
+double Exposure::due(std::uint32_t slice) const {
+    return impl_->visits.due(slice, impl_->open_cycles);
+}
+
+std::size_t Exposure::bytes() const {
+    std::size_t all = impl_->rows.capacity() * sizeof(Row);
+    for (const Row& row : impl_->rows) all += row.bytes();
+    return all;
+}
+
+std::size_t Exposure::most_bytes(const DisplayDescription& display) {
+    const std::size_t channels = channel_count(display.format);
+    std::size_t all = 0;
+    for (std::uint32_t p = 0; p < display.panel_count; ++p) {
+        const Panel& panel = display.panels[p];
+        const std::size_t plane_bytes = (std::size_t{panel.columns} + 7) / 8;
+        const std::size_t pattern_bytes =
+            lit_by_planes(display) ? channels * plane_bytes : row_bytes(panel, display.format);
+        const std::size_t row = sizeof(Row) + kMostPatterns * (sizeof(Pattern) + 2 * pattern_bytes) +
+                                kMostSums * (sizeof(Sum) + channels * panel.columns * sizeof(float));
+        all += row * panel.rows;
+    }
+    return all * display.slices * half_turns_of(display);
 }
 
 const DisplayDescription& Exposure::display() const {

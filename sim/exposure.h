@@ -12,10 +12,11 @@
 // whole length. Of a strobe that the shutter cuts, the part counts that it leaves.
 //
 // Memory. What is kept is rows of pixels: of each row in each slice the different patterns of bits that were lit, and
-// for each its light and where that was, where places within an eighth of a slice are one. Frames that stay, or come
-// again, take nothing more: 100 bytes a row, its bits, and 24 bytes for each pattern and place. Of a row that has had
-// 32 of them, light is added up by pixel, and places are told apart by whole slices alone; that takes 12 bytes a pixel
-// for each of these (mono: 4).
+// for each its light and where that was. Places within an eighth of a slice are one; further than half a slice from
+// where the row should be, those that differ by less than half of that distance. Frames that stay, or come again, take
+// nothing more: 100 bytes a row, its bits, and 24 bytes for each pattern and place. Of a row that has had 64 of them,
+// light is added up by pixel, at up to 8 places (the nearest are joined), which take 12 bytes a pixel each (mono: 4).
+// That bounds it, however long the shutter is open and whatever the display does: most_bytes().
 #pragma once
 
 #include <cstddef>
@@ -64,8 +65,9 @@ public:
     Exposure& operator=(Exposure&&) noexcept;
     ~Exposure();
 
-    /// Adds a strobe's light. Strobes are given when they have ended, so go on until those that are lit at to_ns have:
-    /// at most a cycle, and the time that a string takes to be sent a frame. Throws std::bad_alloc.
+    /// Adds a strobe's light. All strobes of slices of which some are lit while the shutter is open are given, so that
+    /// due() can tell which it cut. Strobes are given when they have ended, so go on until those that are lit at to_ns
+    /// have: at most a cycle, and the time that a string takes to be sent a frame. Throws std::bad_alloc.
     void add(const Strobe& strobe);
 
     using VisitRow = std::function<void(const ExposedRow&)>;
@@ -84,8 +86,21 @@ public:
 
     /// All of it as flashes, for pictures, statistics and rebuild: of each LED that was lit one for each slice of its
     /// way that it was lit in, at the mean place, with its light in LightField::measured, Flash::time a slice that the
-    /// device meant and no code. 44 bytes a flash.
+    /// device meant and no code; by panel, row and slice of the way. 44 bytes a flash, and the light of one row of all
+    /// slices meanwhile.
     LightField light() const;
+
+    /// For how many cycles of the display, as it is declared to run, the shutter is open.
+    double cycles() const;
+    /// The steady light that `slice` was due in that time: 1 of whole cycles. Of others a slice is due the turns that
+    /// it had, ⌊cycles⌋ of them to ⌈cycles⌉, ÷ cycles. 0: it had none, or the shutter cut one, so that its light says
+    /// nothing. What is sent steadily (keeps_light()) is always due 1.
+    double due(std::uint32_t slice) const;
+
+    /// What it holds, in bytes, and what one of a valid `display` can hold at most: of `vortex` 0.9 GB, though frames
+    /// that stay take a tenth of that.
+    std::size_t bytes() const;
+    static std::size_t most_bytes(const DisplayDescription& display);
 
     const DisplayDescription& display() const;
     const DisplayDescription& built() const;

@@ -38,6 +38,7 @@ ExposureStatistics measure(const Exposure& exposure, std::span<const std::byte> 
     ExposureStatistics statistics;
     statistics.display = exposure.display().name.view();
     statistics.exposure_ms = static_cast<double>(exposure.to_ns() - exposure.from_ns()) * 1e-6;
+    statistics.cycles = exposure.cycles();
     double sent = 0.0;
     double light = 0.0;
     double outside = 0.0;
@@ -45,9 +46,10 @@ ExposureStatistics measure(const Exposure& exposure, std::span<const std::byte> 
     double least = std::numeric_limits<double>::infinity();
     std::unordered_map<std::uint32_t, OfCode> codes;
     for_each_voxel(exposure, page, brightness, [&](const ExposedVoxel& voxel) {
-        const double is = sum_of(voxel.light);
-        light += is;
+        if (voxel.due <= 0.0) return;
+        light += sum_of(voxel.light);
         outside += sum_of(voxel.outside);
+        const double is = sum_of(voxel.light) / voxel.due;
         statistics.lit += is > 0.0;
         statistics.lost += voxel.is_lost();
         statistics.extra += voxel.is_extra();
@@ -56,7 +58,7 @@ ExposureStatistics measure(const Exposure& exposure, std::span<const std::byte> 
         const double should = sum_of(voxel.sent);
         if (should <= 0.0) return;
         ++statistics.sent;
-        sent += should;
+        sent += should * voxel.due;
         ratios += is / should;
         least = std::min(least, is / should);
         statistics.uniformity.most = std::max(statistics.uniformity.most, is / should);
@@ -85,10 +87,11 @@ std::string to_json(const ExposureStatistics& statistics) {
                                            uniformity.least, uniformity.mean, uniformity.most, uniformity.spread);
     const std::string light = statistics.sent == 0 ? std::string("null") : fmt::format("{:.6g}", statistics.light);
     return fmt::format(
-        R"({{"display": {}, "exposure_ms": {:.6g}, "sent": {}, "lit": {}, "lost": {}, "extra": {}, "light": {}, )"
+        R"({{"display": {}, "exposure_ms": {:.6g}, "cycles": {:.6g}, "sent": {}, "lit": {}, "lost": {}, "extra": {}, "light": {}, )"
         R"("outside": {:.6g}, "stray_mm": {:.6g}, "stray_slices": {:.6g}, "uniformity": {}}})",
-        json_quoted(statistics.display), statistics.exposure_ms, statistics.sent, statistics.lit, statistics.lost,
-        statistics.extra, light, statistics.outside, statistics.stray_mm, statistics.stray_slices, of_sent);
+        json_quoted(statistics.display), statistics.exposure_ms, statistics.cycles, statistics.sent, statistics.lit,
+        statistics.lost, statistics.extra, light, statistics.outside, statistics.stray_mm, statistics.stray_slices,
+        of_sent);
 }
 
 }  // namespace xorvox::sim

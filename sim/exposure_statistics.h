@@ -10,9 +10,12 @@
 
 namespace xorvox::sim {
 
+/// Of a shutter that was not open for whole cycles, only voxels of slices count that had at least one turn and of which
+/// it cut none, and light is reckoned against the turns that the slice had (Exposure::due()).
 struct ExposureStatistics {
     std::string display;        ///< Its name.
     double exposure_ms = 0.0;   ///< For how long the shutter was open.
+    double cycles = 0.0;        ///< How many of the display's that is, as it is declared to run.
     std::size_t sent = 0;       ///< Voxels that the frame lights,
     std::size_t lit = 0;        ///< that were lit,
     std::size_t lost = 0;       ///< that the frame lights and that were not lit,

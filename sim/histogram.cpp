@@ -130,6 +130,8 @@ LightHistogram make_histogram(const Exposure& exposure, std::span<const std::byt
     std::vector<glm::vec3> sent;
     std::vector<glm::vec3> light;
     const auto count = [&](std::uint32_t slice, std::uint32_t p, std::uint32_t row, std::span<const std::byte> bytes) {
+        const auto due = static_cast<float>(exposure.due(slice));
+        if (due <= 0.0f) return;
         const std::uint32_t columns = display.panels[p].columns;
         sent.assign(columns, glm::vec3(0.0f));
         light.assign(columns, glm::vec3(0.0f));
@@ -140,7 +142,7 @@ LightHistogram make_histogram(const Exposure& exposure, std::span<const std::byt
             const bool is_sent = sent[column] != glm::vec3(0.0f);
             const bool is_lit = light[column] != glm::vec3(0.0f);
             if (is_sent) ++histogram.sent[bin_of(sent[column])];
-            if (is_lit) ++histogram.lit[bin_of(light[column])];
+            if (is_lit) ++histogram.lit[bin_of(light[column] / due)];
             histogram.lost += is_sent && !is_lit;
         }
     };

@@ -26,7 +26,8 @@ struct LightHistogram {
     std::uint64_t lost = 0;                  ///< That the frame lights and that were not lit.
 };
 
-/// A few nanoseconds a voxel. `page` and `brightness` as for for_each_voxel() (sim/exposed_voxels.h). Throws
+/// Of a shutter that was not open for whole cycles, voxels and their light count as in ExposureStatistics. A few
+/// nanoseconds a voxel. `page` and `brightness` as for for_each_voxel() (sim/exposed_voxels.h). Throws
 /// std::bad_alloc.
 LightHistogram make_histogram(const Exposure& exposure, std::span<const std::byte> page, std::uint8_t brightness);
 

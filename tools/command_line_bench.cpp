@@ -79,7 +79,7 @@ CLI::App& bench_sim_command(CLI::App& bench, BenchSimOptions& options) {
         ->capture_default_str()
         ->check(CLI::Range(0.01, 1000.0));
     app.add_flag("--json", options.json, "One JSON array on standard output");
-    examples(app, "  xorvox bench sim examples/duck.ply\n  xorvox bench sim bunny.ply vortex --seconds 10");
+    examples(app, "  xorvox bench sim examples/duck.ply\n  xorvox bench sim bunny.ply vortex --seconds 60");
     return app;
 }
 

@@ -240,7 +240,7 @@ struct BenchColorOptions {
 struct BenchSimOptions {
     std::string mesh;
     std::vector<std::string> displays{"vortex", "rotovox"};
-    double seconds = 2.0;  ///< For which the shutter is open.
+    double seconds = 10.0;  ///< For which the shutter is open.
     bool json = false;
 };
 

@@ -143,7 +143,7 @@ TEST_CASE("one cycle of a perfect rotor is the steady light of its page, for eve
         const std::vector<std::byte> page = random_page(display);
         // Strobes begin and end at whole nanoseconds.
         const double rounding = 2.0 / (sim::full_light_ns(display) / (display.motion.both_ways ? 2.0 : 1.0));
-        const bool by_levels = !sim::lit_by_planes(display);
+        const bool by_levels = !lit_by_planes(display);
         CHECK(greatest_difference(lights_of(exposed(display, page)), steady_lights(display, page)) <=
               1e-6 + (by_levels ? rounding : 0.0));
     }
@@ -183,6 +183,28 @@ TEST_CASE("the light of a plane is half of that of the plane before, rise and fa
         CHECK(lights.at({3, 1, 2, 5}).y == Approx((1u << bit) / 255.0).epsilon(1e-6));
         CHECK(lights.at({3, 1, 2, 5}).x == 0.0f);
     }
+}
+
+TEST_CASE("a channel of fewer planes repeats them: its steady light is that of the planes that are lit") {
+    for (const PixelFormat format : {PixelFormat::Rgb332, PixelFormat::Rgb565}) {
+        for (const unsigned bit_planes : {0u, 3u, 2u, 1u}) {
+            DisplayDescription display = hub75_rotor();
+            display.format = format;
+            display.scan.bit_planes = static_cast<std::uint8_t>(bit_planes);
+            CAPTURE(to_string(format), bit_planes);
+            const std::vector<std::byte> page = random_page(display);
+            CHECK(greatest_difference(lights_of(exposed(display, page)), steady_lights(display, page)) < 1e-6);
+        }
+    }
+    DisplayDescription display = hub75_rotor();
+    display.format = PixelFormat::Rgb332;
+    CHECK(sim::PixelLight(display).of(2).z == Approx(5.0 / 7.0));
+    CHECK(sim::PixelLight(display).of(1).z == Approx(2.0 / 7.0));
+    CHECK(sim::PixelLight(display).of(3).z == 1.0f);
+    display.scan.bit_planes = 2;
+    CHECK(sim::PixelLight(display).of(2).z == Approx(2.0 / 3.0));
+    display.scan = {};
+    CHECK(sim::PixelLight(display).of(2).z == Approx(2.0 / 3.0));
 }
 
 TEST_CASE("an LED that is switched off before it has risen gives the light of its triangle") {
@@ -352,6 +374,56 @@ TEST_CASE("rows that never stay the same are added up, at the same light") {
     }
     CHECK(greatest_difference(lights_of(exposure), sum) < 2e-6);
     CHECK(greatest_difference(lights_anywhere(exposure), sum) < 2e-6);
+}
+
+TEST_CASE("an exposure's memory has a bound, and no light is lost to it") {
+    DisplayDescription display = hub75_rotor();
+    display.slices = 4;
+    std::mt19937 random(11);
+    double ahead = 0.0;
+    std::uint64_t time_ns = 0;
+    constexpr std::uint32_t kStrobes = 20'000;
+    const sim::Exposure::CyclesAt cycles_at = [&](std::uint64_t) { return ahead; };
+    sim::Exposure exposure(display, display, cycles_at, 0, std::uint64_t{kStrobes} * 1000);
+    std::vector<std::byte> bits(4 * 3 * 2);
+    std::uint32_t lit = 0;
+    for (std::uint32_t i = 0; i < kStrobes; ++i, time_ns += 1000) {
+        for (std::byte& byte : bits) byte = static_cast<std::byte>(random());
+        bits[0] |= std::byte{1};
+        bits[1] &= std::byte{0x0f};
+        ahead = static_cast<double>(random() % 1000) / 1000.0;
+        sim::Strobe strobe{.on_ns = time_ns, .off_ns = time_ns + 1000, .row_group = sim::Strobe::kAllRows, .slice = 2};
+        for (std::uint32_t p = 0; p < 2; ++p) {
+            strobe.panels[p] = {.first = bits.data(), .row_bytes = 6, .channel_bytes = {0, 2, 4}};
+        }
+        exposure.add(strobe);
+        ++lit;
+        REQUIRE(exposure.bytes() <= sim::Exposure::most_bytes(display));
+    }
+    // The pixel that was always lit has all of the light, at all of its few places.
+    const double full = sim::full_light_ns(display) * 1e-9 * display.cycles_per_second;
+    std::size_t places = 0;
+    double light = 0.0;
+    exposure.for_each_place(2, 1, 0, [&](const sim::ExposedRow& row) {
+        ++places;
+        light += double{row.light[0].x};
+    });
+    CHECK(light == Approx((1000.0 - 100.0 + 50.0) / 1000.0 / full).epsilon(1e-4));
+    CHECK(places <= 64 + 8);
+}
+
+TEST_CASE("a page that stays takes little memory, wherever the display strays to") {
+    const DisplayDescription display = hub75_rotor();
+    const TimeAt time_at = perfect_time(display);
+    double ahead = 0.0;
+    const auto cycles_at = [&](std::uint64_t ns) {
+        return static_cast<double>(ns) * 1e-9 * display.cycles_per_second * 1.0037 + ahead;
+    };
+    sim::Exposure exposure(display, display, cycles_at, 0, time_at(500 * device::kCycle));
+    const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) { exposure.add(strobe); });
+    scan_page(display, white_page(display), 500, *scan, time_at);
+    const std::size_t rows = 2 * 4 * 16;
+    CHECK(exposure.bytes() < rows * 2000);
 }
 
 TEST_CASE("a shutter cuts the light of a strobe") {

@@ -108,6 +108,17 @@ TEST_CASE("light may be half a slice's way and the reach from its sample") {
     CHECK(off.stray_mm == Approx(6.0));
 }
 
+TEST_CASE("light anywhere in its slice is not outside, however few slices there are") {
+    for (const std::uint32_t slices : {1u, 2u, 3u, 5u, 9u}) {
+        DisplayDescription display = rotor_of(16, 8, slices, PixelFormat::Rgb888);
+        display.scan.driver = DriverChip::Hub75;
+        display.scan.row_groups = 4;
+        const std::vector<std::byte> white(frame_bytes(display), std::byte{0xff});
+        CAPTURE(slices);
+        CHECK(sim::measure(exposed(display, white), white, 255).outside == 0.0);
+    }
+}
+
 TEST_CASE("a helix's light at its seam is where it should be") {
     const DisplayDescription display = helix_of(8, 6, 10, 1, PixelFormat::Mono1);
     const std::vector<std::byte> page(frame_bytes(display), std::byte{0xff});
@@ -125,16 +136,76 @@ TEST_CASE("spread is between voxels of equal code") {
     CHECK(sim::measure(exposed(display, lit), sent, 255).uniformity.spread == Approx(std::sqrt(2.0 * 0.25 / 3.0)));
 }
 
+/// What a shutter sees of so many cycles of a page that stays.
+sim::Exposure open_for(const DisplayDescription& display, std::span<const std::byte> page, double cycles) {
+    const TimeAt time_at = perfect_time(display);
+    const auto to = static_cast<std::uint64_t>(cycles * 1e9 / display.cycles_per_second);
+    sim::Exposure exposure(display, display, {}, 0, to);
+    const auto scan = sim::make_strobe_scan(display, [&](const sim::Strobe& strobe) { exposure.add(strobe); });
+    scan_page(display, page, static_cast<std::uint32_t>(cycles) + 2, *scan, time_at);
+    return exposure;
+}
+
+TEST_CASE("light of no whole number of cycles is reckoned against what each slice was due") {
+    DisplayDescription sweep = swept_of(5, 4, 9, MotionProfile::Sine, PixelFormat::Mono4);
+    sweep.motion.both_ways = true;
+    for (const DisplayDescription& display :
+         {wide_rotor(), stack_of(8, 3, 10, PixelFormat::Mono4), sweep, helix_of(8, 6, 10, 1, PixelFormat::Mono1)}) {
+        CAPTURE(display.name.view());
+        const std::vector<std::byte> page(frame_bytes(display), std::byte{0xff});
+        for (const double cycles : {0.33, 1.0, 2.5, 2.73}) {
+            CAPTURE(cycles);
+            const sim::ExposureStatistics of = sim::measure(open_for(display, page, cycles), page, 255);
+            CHECK(of.cycles == Approx(cycles));
+            CHECK(of.sent > 0);
+            CHECK(of.lost == 0);
+            CHECK(of.light == Approx(1.0).epsilon(1e-4));
+            CHECK(of.uniformity.spread < 1e-4);
+            CHECK(of.uniformity.least == Approx(1.0).epsilon(1e-4));
+            CHECK(of.uniformity.most == Approx(1.0).epsilon(1e-4));
+        }
+    }
+    // A slice that stays dark is lost, also of a part of a cycle.
+    const DisplayDescription rotor = wide_rotor();
+    const std::vector<std::byte> white(frame_bytes(rotor), std::byte{0xff});
+    std::vector<std::byte> lit = white;
+    const std::size_t slice_bytes = lit.size() / rotor.slices;
+    std::fill_n(lit.begin() + static_cast<std::ptrdiff_t>(2 * slice_bytes), slice_bytes, std::byte{0});
+    const sim::ExposureStatistics of = sim::measure(open_for(rotor, lit, 1.5), white, 255);
+    CHECK(of.lost == of.sent / 20);
+    CHECK(of.uniformity.least == 0.0);
+    const sim::LightHistogram histogram = sim::make_histogram(open_for(rotor, white, 1.5), white, 255);
+    CHECK(histogram.lit[50] == 64u * 2 * 20);
+}
+
+TEST_CASE("slices that light is away count what faults of place do") {
+    const auto strays = [](const DisplayDescription& display, const sim::Fault& fault) {
+        const std::vector<std::byte> page(frame_bytes(display), std::byte{0xff});
+        sim::Faults faults;
+        faults.list.push_back(fault);
+        return sim::measure(exposed(display, page, {.faults = faults}), page, 255).stray_slices;
+    };
+    const DisplayDescription rotor = wide_rotor();
+    CHECK(strays(rotor, {.kind = sim::FaultKind::Phase, .amount = 3.0}) == Approx(3.0).margin(0.01));
+    CHECK(strays(rotor, {.kind = sim::FaultKind::Phase, .amount = 19.0}) == Approx(1.0).margin(0.01));
+    CHECK(strays(rotor, {.kind = sim::FaultKind::SwappedSlices, .slice = 4, .other = 9}) == Approx(5.0).margin(0.01));
+    const DisplayDescription stack = stack_of(8, 1, 10);
+    CHECK(strays(stack, {.kind = sim::FaultKind::SwappedSlices, .slice = 1, .other = 9}) == 8.0);
+    CHECK(strays(stack, {.kind = sim::FaultKind::OffAxis}) == 0.0);
+}
+
 TEST_CASE("exposure statistics are JSON, in one order") {
     const DisplayDescription display = stack_of(8, 1, 2);
     const auto page = page_of(display, {{{.column = 0}, 1}});
-    CHECK(to_json(sim::measure(exposed(display, page), page, 255)) ==
-          R"({"display": "stack", "exposure_ms": 10, "sent": 1, "lit": 1, "lost": 0, "extra": 0, "light": 1, )"
-          R"("outside": 0, "stray_mm": 0, "stray_slices": 0, )"
-          R"("uniformity": {"least": 1, "mean": 1, "most": 1, "spread": 0}})");
-    CHECK(to_json(sim::measure(exposed(display, dark_page(display)), {}, 255)) ==
-          R"({"display": "stack", "exposure_ms": 10, "sent": 0, "lit": 0, "lost": 0, "extra": 0, "light": null, )"
-          R"("outside": 0, "stray_mm": 0, "stray_slices": 0, "uniformity": null})");
+    CHECK(
+        to_json(sim::measure(exposed(display, page), page, 255)) ==
+        R"({"display": "stack", "exposure_ms": 10, "cycles": 1, "sent": 1, "lit": 1, "lost": 0, "extra": 0, "light": 1, )"
+        R"("outside": 0, "stray_mm": 0, "stray_slices": 0, )"
+        R"("uniformity": {"least": 1, "mean": 1, "most": 1, "spread": 0}})");
+    CHECK(
+        to_json(sim::measure(exposed(display, dark_page(display)), {}, 255)) ==
+        R"({"display": "stack", "exposure_ms": 10, "cycles": 1, "sent": 0, "lit": 0, "lost": 0, "extra": 0, "light": null, )"
+        R"("outside": 0, "stray_mm": 0, "stray_slices": 0, "uniformity": null})");
 }
 
 TEST_CASE("a histogram counts voxels by their light") {
