@@ -38,8 +38,12 @@ def blocks(data):
 
 
 def main(path):
-    with open(path, "rb") as file:
-        data = file.read()
+    try:
+        with open(path, "rb") as file:
+            data = file.read()
+    except OSError as error:
+        sys.exit(f"{path}: {error.strerror}")
+    require(len(data) >= 16, len(data), "cut off")
     mark, major, minor, crc = struct.unpack("<8sHHI", data[:16])
     require(mark == b"\x89XVR\r\n\x1a\n" and crc == crc32c(data[:12]), 0, "no recording")
     require(major == 1, 8, f"version {major}")

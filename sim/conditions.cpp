@@ -147,7 +147,9 @@ Expected<RotorConditions> parse_rotor(std::string_view text) {
     known.push_back("seed");
     RotorConditions rotor;
     for (const Setting& setting : *settings) {
-        const auto key = std::ranges::find(kRotorKeys, setting.name, &RotorKey::typed);
+        const auto key = std::ranges::find_if(kRotorKeys, [&](const RotorKey& known_key) {
+            return setting.name == known_key.typed() || setting.name == known_key.name;
+        });
         const bool is_seed = setting.name == "seed";
         if (key == std::end(kRotorKeys) && !is_seed) return fail(unknown_name("key", setting.name, known));
         const Expected<double> value = read_number(setting, is_seed ? kSeed : key->range);

@@ -37,7 +37,7 @@ Expected<Conditions> parse_conditions(std::string_view toml, std::string_view so
 Expected<Conditions> load_conditions(const std::string& path);
 
 /// Reads KEY=VALUE,KEY=VALUE: speed, spin_up, acceleration, jitter, missed, doubled, noise, stall and seed, the times
-/// in seconds. "jitter=0.01,missed=0.1,stall=3".
+/// in seconds and with _s behind their names or without. "jitter=0.01,missed=0.1,stall=3".
 Expected<RotorConditions> parse_rotor(std::string_view text);
 
 }  // namespace xorvox::sim

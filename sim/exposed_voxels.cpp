@@ -95,12 +95,15 @@ private:
         switch (display_.kind) {
             case DisplayKind::StackedPlanes:
             case DisplayKind::FreePoints: break;
-            case DisplayKind::Helix: way_mm = display_.motion.stroke_mm / display_.slices; break;
+            case DisplayKind::Helix: way_mm = display_.motion.stroke_mm / display_.slices / 2.0; break;
             case DisplayKind::SweptPlane:
-            case DisplayKind::RotatingPanel:
-                way_mm = glm::distance(begin_.place_mm(row_, column), end_.place_mm(row_, column));
+            case DisplayKind::RotatingPanel: {
+                const glm::dvec3 middle_mm = declared_.place_mm(row_, column);
+                way_mm = std::max(glm::distance(middle_mm, begin_.place_mm(row_, column)),
+                                  glm::distance(middle_mm, end_.place_mm(row_, column)));
+            }
         }
-        return way_mm / 2.0 + reach_mm_;
+        return way_mm + reach_mm_;
     }
 
     const Exposure& exposure_;

@@ -35,8 +35,8 @@ struct ExposedVoxel {
     bool is_extra() const { return sent == glm::vec3(0.0f) && light != glm::vec3(0.0f); }
 };
 
-/// How far light may be from its sample: half of the way that the display's pixel makes in its slice, since a slice is
-/// lit for all of its time, and DisplaySamples::reach_mm.
+/// How far light may be from its sample: as far as the display's pixel is at the beginning or at the end of its slice,
+/// whichever is further, since a slice is lit for all of its time; and DisplaySamples::reach_mm.
 ///
 /// Calls visit(voxel) for every sample of `exposure.display()` that `page` (frame_bytes() in scan-out order; empty:
 /// dark), shown at `brightness`, lights, or that was lit; in scan-out order. A frame that changed while the shutter was

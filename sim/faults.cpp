@@ -43,18 +43,14 @@ public:
     Checker(const DisplayDescription& display, const Fault& fault) : display_(display), fault_(fault) {}
 
     Expected<void> check() const {
+        if (const auto kind = of_this_kind(); !kind) return kind;
         if (const auto panel = count("panel", fault_.panel, display_.panel_count); !panel) return panel;
         const Panel& panel = display_.panels[fault_.panel];
         switch (fault_.kind) {
-            case FaultKind::OffAxis: return needs(is(DisplayKind::RotatingPanel), "only panels that turn have an axis");
             case FaultKind::Tilted: return tilted(panel.tilt_deg + fault_.amount);
+            case FaultKind::ShiftedPlane: return count("plane", fault_.slice, display_.slices);
+            case FaultKind::OffAxis:
             case FaultKind::Shifted:
-                return needs(is(DisplayKind::RotatingPanel) || is(DisplayKind::SweptPlane) || is(DisplayKind::Helix),
-                             "only panels that turn and images of a projector are shifted as a whole; of a stack try "
-                             "shifted-plane");
-            case FaultKind::ShiftedPlane:
-                if (!is(DisplayKind::StackedPlanes)) return refuse("only stacks have planes that stand by themselves");
-                return count("plane", fault_.slice, display_.slices);
             case FaultKind::Mirrored:
             case FaultKind::LostPackets: return {};
             case FaultKind::SwappedPanels: return swapped_panels();
@@ -78,9 +74,24 @@ private:
         if (met) return {};
         return refuse(otherwise);
     }
+    /// Whether displays of its kind can have the fault at all.
+    Expected<void> of_this_kind() const {
+        switch (fault_.kind) {
+            case FaultKind::OffAxis: return needs(is(DisplayKind::RotatingPanel), "only panels that turn have an axis");
+            case FaultKind::Tilted: return needs(is(DisplayKind::RotatingPanel), "only panels that turn can lean");
+            case FaultKind::Shifted:
+                return needs(is(DisplayKind::RotatingPanel) || is(DisplayKind::SweptPlane) || is(DisplayKind::Helix),
+                             "only panels that turn and images of a projector are shifted as a whole; of a stack try "
+                             "shifted-plane");
+            case FaultKind::ShiftedPlane:
+                return needs(is(DisplayKind::StackedPlanes), "only stacks have planes that stand by themselves");
+            default: return {};
+        }
+    }
     /// `index` of `all` that there are.
     Expected<void> count(std::string_view key, std::uint32_t index, std::uint64_t all) const {
         if (index < all) return {};
+        if (all == 1) return refuse(fmt::format("{}: found {}; it has one, 0", key, index));
         return refuse(fmt::format("{}: found {}; allowed: 0 to {}", key, index, all - 1));
     }
     Expected<void> two(std::uint32_t one, std::uint32_t other) const {
@@ -88,7 +99,6 @@ private:
     }
 
     Expected<void> tilted(double deg) const {
-        if (!is(DisplayKind::RotatingPanel)) return refuse("only panels that turn can lean");
         const auto wrong = display::check(deg, display::kTiltDeg);
         return needs(!wrong, "deg: it would lean by " + fmt::format("{}", deg) + " degrees; allowed: less than 90");
     }

@@ -37,20 +37,6 @@
 
 namespace xorvox::sim {
 
-/// Whether its light is strobes of bit planes; else of levels (Strobe::kLevels).
-constexpr bool lit_by_planes(const DisplayDescription& display) {
-    if (display.light.response != Response::Linear) return false;
-    switch (display.scan.driver) {
-        case DriverChip::Hub75:
-        case DriverChip::ShiftRegister595: return true;
-        case DriverChip::Direct: return display.scan.row_groups > 1;
-        case DriverChip::Ws2812:
-        case DriverChip::Apa102:
-        case DriverChip::Dlp: break;
-    }
-    return false;
-}
-
 /// For how long an LED that is fully on gives full light in one cycle of a valid `display` at its declared speed and
 /// brightness 255, in nanoseconds: in the strobes of its slice, or of all of them.
 constexpr double full_light_ns(const DisplayDescription& display) {

@@ -37,6 +37,15 @@ double respond(const Light& light, double level) {
 
 }  // namespace
 
+/// The part of the lit planes in which a channel of `shown` planes is lit: plane p is its plane p mod shown.
+double PixelLight::repeated(std::uint32_t level, std::uint32_t shown) const {
+    std::uint32_t lit = 0;
+    for (std::uint32_t plane = 0; plane < lit_planes; ++plane) {
+        lit = 2 * lit + (level >> (shown - 1 - plane % shown) & 1u);
+    }
+    return static_cast<double>(lit) / ((1u << lit_planes) - 1u);
+}
+
 glm::vec3 PixelLight::of(std::uint32_t code) const {
     glm::vec3 color(0.0f);
     const std::array<Channel, 3> all = channels(format);
@@ -45,7 +54,8 @@ glm::vec3 PixelLight::of(std::uint32_t code) const {
         const unsigned shown = std::min(bits, bit_planes);
         const std::uint32_t most = (1u << shown) - 1u;
         const std::uint32_t level = (code >> (low + bits - shown)) & most;
-        color[i] = static_cast<float>(respond(light, static_cast<double>(level) / most));
+        const double part = lit_planes > shown ? repeated(level, shown) : static_cast<double>(level) / most;
+        color[i] = static_cast<float>(respond(light, part));
     }
     return color;
 }

@@ -116,12 +116,15 @@ void TimingWatch::present(std::uint32_t frame, std::uint64_t now_ns) {
     for (auto other = open_.begin(); other != open_.end();) {
         FrameTiming& passed_over = other->second;
         const bool was_due = passed_over.accepted_ns != FrameTiming::kNever && passed_over.asked_ns <= now_ns;
-        if (!was_due || passed_over.presented_ns != FrameTiming::kNever) {
+        const bool was_presented = passed_over.presented_ns != FrameTiming::kNever;
+        if (other == found || !(was_due || was_presented)) {
             ++other;
             continue;
         }
-        passed_over.dropped = true;
-        ++timing_.dropped;
+        if (!was_presented) {
+            passed_over.dropped = true;
+            ++timing_.dropped;
+        }
         finish(passed_over);
         other = open_.erase(other);
     }

@@ -95,7 +95,8 @@ public:
     void sent(std::span<const std::byte> packet, std::uint64_t now_ns);
 
     const Timing& timing() const { return timing_; }
-    /// The frames that were lit or dropped last, at most kFramesKept, in the order in which that became known.
+    /// The frames that were lit or dropped last, or replaced before anything of them was lit, at most kFramesKept, in
+    /// the order in which that became known.
     const std::vector<FrameTiming>& frames() const { return done_; }
 
 private:
@@ -105,7 +106,7 @@ private:
 
     Timing timing_;
     State state_;
-    std::map<std::uint32_t, FrameTiming> open_;  ///< By their ids; neither lit nor dropped yet.
+    std::map<std::uint32_t, FrameTiming> open_;  ///< By their ids; neither lit nor replaced yet.
     std::vector<FrameTiming> done_;
     std::uint16_t session_ = 0;
     std::optional<std::uint32_t> last_begun_;

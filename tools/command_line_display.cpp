@@ -168,6 +168,7 @@ Command sim_command(CLI::App& program, SimOptions& options) {
         ->required()
         ->type_name("ADDRESS");
     add_simulation(app, options.simulation);
+    add_instruments(app, options.simulation);
     app.add_option("--record", options.record, "What passes, as a recording (docs/recordings.md), whole once it ends")
         ->type_name("F.xvr");
     app.add_flag("--json", options.json, "One JSON object a line on standard output, for every frame shown");

@@ -34,7 +34,13 @@ Command record_command(CLI::App& program, PlayOptions& options) {
            },
            "How many frames, one for each cycle of the display (default 1)")
         ->type_name("N");
-    app.add_option("-o,--output", options.stage.delivery.record, "The recording")->required()->type_name("F.xvr");
+    app.add_option("-o,--output", options.stage.delivery.record, "The recording")
+        ->required()
+        ->type_name("F.xvr")
+        ->check([](const std::string& name) {
+            return name.ends_with(".xvr") ? std::string()
+                                          : fmt::format("'{}' does not end in .xvr, as a recording's name does", name);
+        });
     app.add_flag("--json", options.stage.delivery.json, "What was sent and what lit up, as one JSON object");
     options.frames = 1;
     examples(

@@ -1,6 +1,7 @@
 #include "tools/delivery.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
@@ -117,9 +118,10 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
-host::SessionOptions session_options(bool distant, const DisplayDescription& display,
-                                     std::span<const std::byte> frame) {
+host::SessionOptions session_options(bool distant, const DisplayDescription& display, std::span<const std::byte> frame,
+                                     bool recorded) {
     host::SessionOptions options;
+    if (recorded) options.keyframe_interval_ns = 1'000'000'000;
     // A slow display shows a frame a cycle after it came.
     options.present_timeout_ns = std::max(options.present_timeout_ns, static_cast<std::int64_t>(2 * cycle_ns(display)));
     const std::uint32_t number = distant ? std::random_device()() : wire::crc32c(frame);
@@ -149,6 +151,11 @@ Expected<void> finish_recording(const DeliveryOptions& options, sim::RecordingWr
     return {};
 }
 
+void keep_recording(const DeliveryOptions& options, sim::RecordingWriter* recording) {
+    if (recording == nullptr || recording->frames() == 0) return;
+    if (const auto kept = finish_recording(options, recording); !kept) warn(kept.error().message);
+}
+
 Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const DisplayDescription& display,
                                           Link link) {
     DisplayFile built;
@@ -161,6 +168,7 @@ Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const 
     }
     Expected<sim::Conditions> conditions = read_conditions(options.simulation);
     if (!conditions) return tl::unexpected(conditions.error());
+    if (const auto possible = check_rotor(*conditions, display); !possible) return tl::unexpected(possible.error());
     wanted.faults = std::move(conditions->faults);
     wanted.rotor = conditions->rotor;
     std::optional<Shutter> shutter;
@@ -169,8 +177,7 @@ Expected<LocalDisplay> make_local_display(const DeliveryOptions& options, const 
         if (!made) return tl::unexpected(made.error());
         shutter = std::move(*made);
         wanted.keeps_time = true;
-        const bool edges = options.simulation.fidelity == "edges" || !options.simulation.trace.empty();
-        wanted.fidelity = edges ? sim::Fidelity::Edges : sim::Fidelity::Strobes;
+        wanted.fidelity = Shutter::fidelity(options.simulation);
     }
     Expected<sim::Simulator> simulator = sim::Simulator::make(display, link, wanted);
     if (!simulator) return tl::unexpected(simulator.error());
@@ -229,9 +236,15 @@ Expected<void> check_delivery(const DeliveryOptions& options, const transport::A
         return fail("--hold keeps a display at the other end of a tcp link lit; use it with --to tcp:HOST:PORT");
     }
     std::error_code missing;
-    for (const std::string& out : {options.png, options.record, address.path}) {
-        if (!out.empty() && !input.empty() && std::filesystem::equivalent(out, input, missing)) {
-            return fail(out + " is the input itself; choose another name for the output");
+    const std::array outputs{options.png,      simulation.compare, simulation.histogram,
+                             simulation.trace, options.record,     address.path};
+    for (auto out = outputs.begin(); out != outputs.end(); ++out) {
+        if (out->empty()) continue;
+        if (!input.empty() && std::filesystem::equivalent(*out, input, missing)) {
+            return fail(*out + " is the input itself; choose another name for the output");
+        }
+        if (std::find(outputs.begin(), out, *out) != out) {
+            return fail(*out + " is asked for twice; choose another name for one of the outputs");
         }
     }
     return {};
@@ -256,7 +269,7 @@ Expected<std::optional<LightSeen>> look_at(LocalDisplay& local, std::uint64_t no
     LightSeen seen;
     sim::LightField light;
     if (local.shutter) {
-        Expected<SeenInTime> in_time = local.shutter->open(simulator, now_ns, options, meanwhile);
+        Expected<SeenInTime> in_time = local.shutter->close(simulator, now_ns, options, meanwhile);
         if (!in_time) return tl::unexpected(in_time.error());
         light = std::move(in_time->light);
         seen.in_time = std::move(*in_time);
@@ -315,17 +328,17 @@ Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Addr
     return fail("unknown kind of address");
 }
 
-std::string light_json(const std::optional<LightSeen>& light) {
+std::string light_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
     if (!light) return "null";
     std::string object = sim::to_json(light->statistics);
     while (!object.ends_with('}')) object.pop_back();
     object.pop_back();
-    return fmt::format("{}, \"in_time\": {}}}", object, in_time_json(light->in_time));
+    return fmt::format("{}, \"in_time\": {}}}", object, in_time_json(options.simulation, light->in_time));
 }
 
 std::string picture_json(const DeliveryOptions& options, const std::optional<LightSeen>& light) {
     return fmt::format("\"picture\": {}, \"light\": {}", options.png.empty() ? "null" : json_string(options.png),
-                       light_json(light));
+                       light_json(options, light));
 }
 
 }  // namespace xorvox::tools

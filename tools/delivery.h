@@ -41,7 +41,9 @@ inline constexpr std::uint64_t kSimulatedStep_ns = 100'000'000;
 
 /// A distant display remembers the session before, so each gets another id; that of a file, and of a display that is
 /// switched on for it, follows from its first frame, so that equal frames give equal packets.
-host::SessionOptions session_options(bool distant, const DisplayDescription& display, std::span<const std::byte> frame);
+/// `recorded`: a keyframe now and then, so that the recording can be played from any moment.
+host::SessionOptions session_options(bool distant, const DisplayDescription& display, std::span<const std::byte> frame,
+                                     bool recorded = false);
 
 /// Begins the file of --record. Nothing without the option.
 Expected<std::optional<sim::RecordingWriter>> make_recording(const DeliveryOptions& options,
@@ -52,6 +54,9 @@ UniqueLink recorded(UniqueLink link, sim::RecordingWriter* recording, std::funct
 
 /// "recorded: 3 frames in duck.xvr"; commits `recording` if there is one.
 Expected<void> finish_recording(const DeliveryOptions& options, sim::RecordingWriter* recording);
+
+/// Where an error ended the delivery: keeps the recording of what was sent whole until then, if there is any.
+void keep_recording(const DeliveryOptions& options, sim::RecordingWriter* recording);
 
 /// A display in this program.
 struct LocalDisplay {
@@ -84,7 +89,7 @@ Expected<Delivery> deliver(const DeliveryOptions& options, const transport::Addr
                            io::AtomicFile* png, sim::RecordingWriter* recording = nullptr);
 
 /// What a display in this program showed, as a JSON object; "null" of another one.
-std::string light_json(const std::optional<LightSeen>& light);
+std::string light_json(const DeliveryOptions& options, const std::optional<LightSeen>& light);
 
 /// Members of a JSON object: the picture and the light.
 std::string picture_json(const DeliveryOptions& options, const std::optional<LightSeen>& light);

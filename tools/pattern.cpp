@@ -158,17 +158,20 @@ Expected<void> show_still(const DeliveryOptions& options, const transport::Addre
     }
     const std::uint64_t most_flashes = std::min(lit.pixels, slices * lit.most_in_slice);
     const Expected<Delivery> delivery = deliver(options, address, display, frame, most_flashes, png, recording);
-    if (!delivery) return tl::unexpected(delivery.error());
+    if (!delivery) {
+        keep_recording(options, recording);
+        return tl::unexpected(delivery.error());
+    }
     const std::uint64_t slice_pixels = frame_pixels(display) / display.slices;
     if (options.json) {
         fmt::print(
             "{}, \"pixels_lit\": {}, \"most_in_slice\": {}, \"slice_pixels\": {}, "
             "\"slices_shown\": {}, \"light\": {}}}\n",
             heading_json(options, display, info), lit.pixels, lit.most_in_slice, slice_pixels, slices,
-            light_json(delivery->light));
+            light_json(options, delivery->light));
         return finish_recording(options, recording);
     }
-    fmt::print("{}: {} pixels lit, at most {} of the {} of a slice\n", is_here(address) ? "pattern" : "sent",
+    fmt::print("{}: {} pixels, at most {} of the {} of a slice\n", is_here(address) ? "pattern" : "sent",
                thousands(lit.pixels), thousands(lit.most_in_slice), thousands(slice_pixels));
     if (!is_here(address)) fmt::print("{}\n", gone_to(address));
     print_thinned(display, slices);
@@ -206,7 +209,7 @@ Expected<void> show_moving(const DeliveryOptions& options, const transport::Addr
     if (!delivery) return tl::unexpected(delivery.error());
     if (options.json) {
         fmt::print("{}, {}, \"slices_shown\": {}, \"light\": {}}}\n", heading_json(options, display, info),
-                   stream_json(*delivery), slices, light_json(delivery->light));
+                   stream_json(*delivery), slices, light_json(options, delivery->light));
     } else {
         print_stream(*delivery);
         if (!is_here(address) && !delivery->broken) fmt::print("{}\n", gone_to(address));

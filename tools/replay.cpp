@@ -27,8 +27,8 @@
 namespace xorvox::tools {
 namespace {
 
-/// A pause beyond this is a mistake in the file, and would be simulated cycle by cycle.
-constexpr std::uint64_t kLongestPause_ns = std::uint64_t{24} * 3600 * 1'000'000'000;
+/// A time beyond this is a mistake in the file, and would be simulated cycle by cycle.
+constexpr std::uint64_t kLongest_ns = std::uint64_t{24} * 3600 * 1'000'000'000;
 
 /// What is wrong with the recording: an end, or, with --keep-going, a warning.
 class Troubles {
@@ -42,7 +42,7 @@ public:
         if (count_ == kMost) warn("there may be more of this, which is not told");
         return {};
     }
-    std::size_t count() const { return count_; }
+    std::uint64_t count() const { return count_; }
 
 private:
     bool keep_going_;
@@ -55,27 +55,18 @@ std::uint64_t to_ns(double seconds) {
 }
 
 /// Reads all that will be played once, so that nothing of a damaged recording is shown to anybody unless asked for.
-Expected<void> check(sim::RecordingReader& reader, std::uint64_t from_ns, Troubles& troubles) {
-    reader.rewind();
-    if (const auto key = sim::keyframe_before(reader.frames(), from_ns)) reader.seek(reader.frames()[*key].begin);
-    sim::Block block;
-    std::uint64_t last_ns = 0;
-    bool first = true;
-    for (Status status = reader.next(block); status != Status::Closed; status = reader.next(block)) {
-        if (status == Status::Corrupt) {
-            if (const auto noted = troubles.note(reader.damage()); !noted) return noted;
-            continue;
-        }
-        if (!first && block.time_ns > last_ns + kLongestPause_ns) {
-            return fail(
-                fmt::format("{}: byte {}: a pause of {:.3g} s, which is more than a day; no such recording is "
-                            "played",
-                            reader.name(), block.offset, static_cast<double>(block.time_ns - last_ns) * 1e-9));
-        }
-        first = block.kind == sim::BlockKind::Display;
-        last_ns = block.time_ns;
+Expected<void> check(sim::RecordingReader& reader, const DisplayDescription& display, std::uint64_t from_ns,
+                     Troubles& troubles) {
+    sim::RecordedFrames frames(reader, display);
+    for (Status status = frames.seek(from_ns); status != Status::Closed; status = frames.next()) {
+        if (status != Status::Corrupt) continue;
+        if (const auto noted = troubles.note(frames.damage()); !noted) return noted;
     }
-    return {};
+    if (frames.latest_ns() <= kLongest_ns) return {};
+    return fail(
+        fmt::format("{}: a packet of it comes {:.3g} s after its beginning, which is more than a day; no such "
+                    "recording is played",
+                    reader.name(), static_cast<double>(frames.latest_ns()) * 1e-9));
 }
 
 /// What the display in this program said of what it got.
@@ -85,6 +76,7 @@ struct Answers {
     std::uint64_t refused = 0;
     std::uint32_t last_accepted = 0;
     std::uint32_t last_presented = 0;
+    bool any_presented = false;
 
     bool all_presented() const { return accepted == 0 || last_accepted == last_presented; }
 
@@ -101,6 +93,7 @@ struct Answers {
             if (wire::decode(payload, acknowledge) != Status::Ok) continue;
             const bool shown = acknowledge.stage == wire::AckStage::Presented;
             (shown ? presented : accepted) += counts;
+            any_presented = any_presented || shown;
             (shown ? last_presented : last_accepted) = acknowledge.frame;
             if (shown) last_accepted = wire::is_newer(last_presented, last_accepted) ? last_presented : last_accepted;
         }
@@ -118,7 +111,7 @@ struct Replayed {
 
 /// Packet by packet in simulated time: the clock goes from boundary to boundary and from packet to packet.
 Expected<Replayed> replay_in_process(const ReplayOptions& options, const DisplayFile& display,
-                                     sim::RecordingReader& reader, Troubles& troubles, io::AtomicFile* png,
+                                     sim::RecordingReader& reader, io::AtomicFile* png,
                                      sim::RecordingWriter* recording) {
     std::uint64_t now_ns = 0;
     auto [near_end, device_end] = transport::make_loopback();
@@ -145,9 +138,7 @@ Expected<Replayed> replay_in_process(const ReplayOptions& options, const Display
         now_ns = std::max(now_ns, moment_ns);
     };
     stop_on_signals();
-    if (playback.seek(from_ns) == Status::Corrupt) {
-        if (const auto noted = troubles.note(playback.damage()); !noted) return tl::unexpected(noted.error());
-    }
+    (void)playback.seek(from_ns);  // Damage was noted by check().
     for (Status status = playback.next(); status != Status::Closed && !asked_to_stop(); status = playback.next()) {
         if (status == Status::Corrupt) continue;  // Noted by check().
         counts = counts || playback.time_ns() >= from_ns;
@@ -162,10 +153,24 @@ Expected<Replayed> replay_in_process(const ReplayOptions& options, const Display
         now_ns = simulator.next_boundary_ns();
         settle();
     }
+    if (!answers.any_presented && !asked_to_stop()) {
+        return fail(options.file + ": nothing of it could be shown; the display presented no frame");
+    }
     replayed.simulated_ns = now_ns;
     const std::size_t lit = sim::count_lit(display, simulator.device().shown().page);
-    Expected<std::optional<LightSeen>> seen = look_at(*local, now_ns, lit, options.delivery, png,
-                                                      [&](std::uint64_t) { answers.drain(host_end.get(), false); });
+    // The host that was recorded is not gone while the display is looked at.
+    std::vector<std::byte> ping(wire::kMaxPacketBytes);
+    std::uint64_t pinged_ns = now_ns;
+    const auto meanwhile = [&](std::uint64_t time_ns) {
+        constexpr std::uint64_t kPingEvery_ns = 10'000'000;
+        now_ns = time_ns;
+        answers.drain(host_end.get(), false);
+        std::size_t size = 0;
+        if (time_ns - pinged_ns < kPingEvery_ns || !playback.make_ping(time_ns, ping, size)) return;
+        (void)host_end->send(std::span(ping).first(size));
+        pinged_ns = time_ns;
+    };
+    Expected<std::optional<LightSeen>> seen = look_at(*local, now_ns, lit, options.delivery, png, meanwhile);
     if (!seen) return tl::unexpected(seen.error());
     replayed.light = std::move(*seen);
     return replayed;
@@ -199,7 +204,8 @@ void print_replayed(const ReplayOptions& options, const DisplayFile& display, co
         return;
     }
     print_heading(options, display, reader);
-    fmt::print("shown: {} frames, {} given up, {} refused\n", thousands(answers.presented),
+    fmt::print("shown: {} frame{}, {} given up, {} refused\n", thousands(answers.presented),
+               answers.presented == 1 ? "" : "s",
                thousands(answers.accepted - std::min(answers.accepted, answers.presented)), thousands(answers.refused));
     print_lit(options, replayed.light);
 }
@@ -207,23 +213,20 @@ void print_replayed(const ReplayOptions& options, const DisplayFile& display, co
 /// Gives a stream, at each moment, the frame that the recording had last.
 class FrameFeed {
 public:
-    FrameFeed(const ReplayOptions& options, sim::RecordingReader& reader, const DisplayDescription& display,
-              Troubles& troubles)
+    FrameFeed(const ReplayOptions& options, sim::RecordingReader& reader, const DisplayDescription& display)
         : frames_(reader, display),
-          troubles_(troubles),
+          cycle_ns_(cycle_ns(display)),
           speed_(options.speed.value_or(1.0)),
           from_ns_(to_ns(options.seek_seconds)) {}
 
     Expected<void> begin() {
-        if (frames_.seek(from_ns_) == Status::Corrupt) {
-            if (auto noted = troubles_.note(frames_.damage()); !noted) return noted;
-        }
+        (void)frames_.seek(from_ns_);  // Damage was noted by check().
         // What is shown at the moment where it begins: the last frame before it, or the first one after.
         read();
         while (more_ && next_ns_ <= from_ns_) step();
         if (current_.empty() && more_) step();
         if (current_.empty()) return fail("there is no whole frame to be played; record it anew, or --seek less");
-        begin_ns_ = std::max(from_ns_, current_ns_);
+        begin_ns_ = std::max(from_ns_, begin_of_first());
         return {};
     }
 
@@ -232,8 +235,11 @@ public:
         if (speed_ == 0.0) {
             if (moment.number > 0) step();
         } else {
-            const std::uint64_t now_ns = begin_ns_ + to_ns(moment.seconds * speed_);
-            while (more_ && next_ns_ <= now_ns) step();
+            // The newest frame of this cycle; moments are as exact as half of one.
+            const double ahead = std::max(speed_ - 1.0, 0.0) + 0.5 * std::min(speed_, 1.0);
+            const std::uint64_t until_ns =
+                begin_ns_ + to_ns(moment.seconds * speed_ + ahead * static_cast<double>(cycle_ns_) * 1e-9);
+            while (more_ && next_ns_ <= until_ns) step();
         }
         std::ranges::copy(current_, frame.begin());
         ended_ = !more_;
@@ -247,29 +253,40 @@ private:
         while (status == Status::Corrupt) status = frames_.next();  // Noted by check().
         more_ = status == Status::Ok;
         next_ns_ = frames_.shown_ns();
+        next_asked_ = frames_.frame().present_at_ns != 0;
     }
     void step() {
+        current_asked_ = next_asked_;
         current_.assign(frames_.frame().bytes.begin(), frames_.frame().bytes.end());
         current_ns_ = next_ns_;
         read();
     }
 
+    /// A frame that asked for no moment was shown at the first boundary after it was whole: whole cycles before the
+    /// next one, which did.
+    std::uint64_t begin_of_first() const {
+        if (current_asked_ || !more_ || !next_asked_ || next_ns_ <= current_ns_) return current_ns_;
+        return next_ns_ - (next_ns_ - current_ns_ - 1) / cycle_ns_ * cycle_ns_;
+    }
+
     sim::RecordedFrames frames_;
-    Troubles& troubles_;
+    std::uint64_t cycle_ns_;
     double speed_;
     std::uint64_t from_ns_;
     std::uint64_t begin_ns_ = 0;
     std::vector<std::byte> current_;
     std::uint64_t current_ns_ = 0;
+    bool current_asked_ = false;
+    bool next_asked_ = false;
     bool more_ = false;  ///< frames_ has one after `current_`, to be shown at next_ns_.
     std::uint64_t next_ns_ = 0;
     bool ended_ = false;
 };
 
 Expected<void> replay_over(const ReplayOptions& options, const transport::Address& address, const DisplayFile& display,
-                           sim::RecordingReader& reader, Troubles& troubles, io::AtomicFile* png,
+                           sim::RecordingReader& reader, const Troubles& troubles, io::AtomicFile* png,
                            sim::RecordingWriter* recording) {
-    FrameFeed feed(options, reader, display, troubles);
+    FrameFeed feed(options, reader, display);
     if (const auto begun = feed.begin(); !begun) return begun;
     const FrameSource source = [&feed](const FrameMoment& moment, std::span<std::byte> frame) {
         return feed(moment, frame);
@@ -288,6 +305,31 @@ Expected<void> replay_over(const ReplayOptions& options, const transport::Addres
         print_lit(options, delivery->light);
     }
     return delivery->broken ? Expected<void>(tl::unexpected(*delivery->broken)) : Expected<void>();
+}
+
+/// Whether the packets of a recording without a description are of `display`, as far as they tell.
+Expected<void> check_packets(sim::RecordingReader& reader, const DisplayDescription& display,
+                             const ReplayOptions& options) {
+    reader.rewind();
+    sim::Block block;
+    for (Status status = reader.next(block); status != Status::Closed; status = reader.next(block)) {
+        wire::Header header;
+        std::span<const std::byte> payload;
+        if (status != Status::Ok || wire::decode_packet(block.payload, header, payload) != Status::Ok) continue;
+        wire::Hello hello;
+        wire::FrameBegin begin;
+        const bool is_hello = header.type == wire::PacketType::Hello && wire::decode(payload, hello) == Status::Ok;
+        const bool begins = header.type == wire::PacketType::FrameBegin && wire::decode(payload, begin) == Status::Ok;
+        const bool another = (is_hello && hello.geometry_digest != geometry_digest(display)) ||
+                             (begins && begin.frame_bytes != frame_bytes(display));
+        if (another) {
+            return fail(fmt::format("{}: byte {}: this packet is of another display than --display {}{}", options.file,
+                                    block.offset, options.display,
+                                    is_hello ? fmt::format("; the device was a {}", hello.display.view()) : ""));
+        }
+        if (is_hello || begins) return {};
+    }
+    return {};
 }
 
 /// The display to play for: the one of the recording, or another of the same geometry.
@@ -318,14 +360,19 @@ Expected<void> replay(const ReplayOptions& options) {
     Troubles troubles(options.keep_going);
     const Expected<DisplayFile> display = choose_display(options, *reader);
     if (!display) return tl::unexpected(display.error());
-    if (!reader->fault().empty()) (void)troubles.note(reader->fault());
+    if (reader->display() == nullptr) {
+        (void)troubles.note(reader->fault());
+        if (const auto meant = check_packets(*reader, *display, options); !meant) return meant;
+    }
     if (const auto fits = check_display_fits(*display); !fits) return fits;
     const std::uint64_t from_ns = to_ns(options.seek_seconds);
     if (from_ns > reader->duration_ns()) {
-        return fail(fmt::format("--seek {:g}: {} is {:g} s long", options.seek_seconds, options.file,
+        return fail(fmt::format("--seek {:g}: {} is {:.3f} s long", options.seek_seconds, options.file,
                                 static_cast<double>(reader->duration_ns()) * 1e-9));
     }
-    if (const auto whole = check(*reader, from_ns, troubles); !whole) return whole;
+    if (const auto whole = check(*reader, *display, from_ns, troubles); !whole) return whole;
+    // Of what is damaged within, the end knows nothing better.
+    if (troubles.count() == 0 && !reader->fault().empty()) (void)troubles.note(reader->fault());
     if (reader->frames().empty()) {
         return fail(options.file + ": there is no whole frame in it; record it anew");
     }
@@ -342,11 +389,12 @@ Expected<void> replay(const ReplayOptions& options) {
     // At another speed the recorded host would not heed what this display has room for.
     const bool as_recorded = !options.speed || *options.speed == 1.0 || *options.speed == 0.0;
     if (address->kind == transport::AddressKind::Loopback && as_recorded) {
-        const auto replayed = replay_in_process(options, *display, *reader, troubles, picture, recorder);
+        const auto replayed = replay_in_process(options, *display, *reader, picture, recorder);
         if (!replayed) return tl::unexpected(replayed.error());
         print_replayed(options, *display, *reader, *replayed, troubles.count());
     } else if (const auto played = replay_over(options, *address, *display, *reader, troubles, picture, recorder);
                !played) {
+        keep_recording(to, recorder);
         return played;
     }
     return finish_recording(to, recorder);

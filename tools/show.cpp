@@ -33,7 +33,10 @@ Expected<void> show_still(const StageOptions& options) {
     const DeliveryOptions& to = options.delivery;
     const Expected<Delivery> delivery =
         deliver(to, stage.address, stage.display, frame, voxels, stage.picture(), stage.recorder());
-    if (!delivery) return tl::unexpected(delivery.error());
+    if (!delivery) {
+        keep_recording(to, stage.recorder());
+        return tl::unexpected(delivery.error());
+    }
     if (to.json) {
         fmt::print("{{{}, \"bytes_raw\": {}, \"bytes_sent\": {}, \"two_way\": {}, {}}}\n",
                    stage_json(options, stage, voxels), delivery->session.bytes_raw, delivery->session.bytes_sent,

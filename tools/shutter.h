@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -12,6 +12,7 @@
 #include "sim/simulator.h"
 #include "sim/timing.h"
 #include "tools/commands.h"
+#include "tools/watch.h"
 #include "voxelizer/error.h"
 #include "voxelizer/io/atomic_file.h"
 
@@ -25,10 +26,7 @@ struct SeenInTime {
     sim::LightField light;
 };
 
-/// What the host does while time goes on, at each moment.
-using Meanwhile = std::function<void(std::uint64_t now_ns)>;
-
-/// One of the simulated displays that are watched in time.
+/// The instruments of one simulated display. A moved Shutter must not have been opened.
 class Shutter {
 public:
     /// What of `options` can be refused before any work.
@@ -37,18 +35,26 @@ public:
     /// Whether `options` or `conditions` ask for one.
     static bool is_wanted(const SimulationOptions& options, const sim::Conditions& conditions);
 
+    /// How closely it looks.
+    static sim::Fidelity fidelity(const SimulationOptions& options);
+
     /// Begins the files that `options` name.
     static Expected<Shutter> make(const SimulationOptions& options);
 
-    /// Opens it at the next whole cycle after `now_ns`, for the time that was asked for or one cycle, and writes and
-    /// measures what comes in. Call it once.
-    Expected<SeenInTime> open(sim::Simulator& simulator, std::uint64_t now_ns, const DeliveryOptions& options,
-                              const Meanwhile& meanwhile);
+    /// Has `simulator`, which is borrowed until close(), watched from its next frame on: see Watch.
+    void open(sim::Simulator& simulator, const SimulationOptions& options);
+    /// Whether close() has nothing to wait for.
+    bool is_over(std::uint64_t now_ns);
+    /// Opens it if that was not done, lets time go on until it has seen all, and measures and writes that; what was
+    /// sent is what is shown at `now_ns`. Call it once.
+    Expected<SeenInTime> close(sim::Simulator& simulator, std::uint64_t now_ns, const DeliveryOptions& options,
+                               const Meanwhile& meanwhile);
 
 private:
     std::optional<io::AtomicFile> trace_;
     std::optional<io::AtomicFile> histogram_;
     std::optional<io::AtomicFile> comparison_;
+    std::unique_ptr<Watch> watch_;  ///< After the files, which it writes to.
 };
 
 /// Lines for people: what became of frames, and faults.
@@ -57,7 +63,7 @@ void print_timing(const sim::Timing& timing);
 /// Lines for people; nothing where `seen` is empty.
 void print_in_time(const SimulationOptions& options, const std::optional<SeenInTime>& seen);
 
-/// A JSON object, or "null".
-std::string in_time_json(const std::optional<SeenInTime>& seen);
+/// A JSON object, what was asked for included, or "null".
+std::string in_time_json(const SimulationOptions& options, const std::optional<SeenInTime>& seen);
 
 }  // namespace xorvox::tools

@@ -49,6 +49,11 @@ public:
         json_ ? fmt::print("{{\"event\": \"{}\"}}\n", what) : fmt::print("client {}\n", what);
         std::fflush(stdout);
     }
+    void seen(const SimulationOptions& options, const SeenInTime& seen) {
+        json_ ? fmt::print("{{\"event\": \"seen\", \"in_time\": {}}}\n", in_time_json(options, seen))
+              : print_in_time(options, seen);
+        std::fflush(stdout);
+    }
     void ended(const sim::Timing& timing) {
         std::string object = sim::to_json(timing);
         while (object.ends_with('\n')) object.pop_back();
@@ -101,19 +106,25 @@ Expected<void> sim(const SimOptions& options) {
     sim::SimulatorOptions simulated{.boot_nonce = std::random_device{}()};
     Expected<sim::Conditions> conditions = read_conditions(options.simulation);
     if (!conditions) return tl::unexpected(conditions.error());
+    if (const auto possible = check_rotor(*conditions, *display); !possible) return possible;
     simulated.faults = std::move(conditions->faults);
     simulated.rotor = conditions->rotor;
     simulated.keeps_time = true;
+    if (const auto possible = Shutter::check(options.simulation); !possible) return possible;
+    DeliveryOptions looks;
+    looks.simulation = options.simulation;
+    looks.json = options.json;
+    std::optional<Shutter> shutter;
+    if (Shutter::is_wanted(options.simulation, {})) {
+        Expected<Shutter> made = Shutter::make(options.simulation);
+        if (!made) return tl::unexpected(made.error());
+        shutter.emplace(std::move(*made));
+        simulated.fidelity = Shutter::fidelity(options.simulation);
+    }
     Expected<sim::Simulator> simulator = sim::Simulator::make(*display, Link{}, simulated);
     if (!simulator) return tl::unexpected(simulator.error());
     Expected<transport::TcpListener> listener = transport::TcpListener::listen(address->port, address->host);
     if (!listener) return tl::unexpected(listener.error());
-
-    stop_on_signals();
-    Events events(*display, options.json);
-    transport::Address actual = *address;
-    actual.port = listener->port();
-    events.listening(transport::to_string(actual));
 
     std::optional<sim::RecordingWriter> recording;
     if (!options.record.empty()) {
@@ -121,6 +132,14 @@ Expected<void> sim(const SimOptions& options) {
         if (!writer) return tl::unexpected(writer.error());
         recording = std::move(*writer);
     }
+
+    stop_on_signals();
+    Events events(*display, options.json);
+    transport::Address actual = *address;
+    actual.port = listener->port();
+    events.listening(transport::to_string(actual));
+
+    if (shutter) shutter->open(*simulator, options.simulation);
     UniqueLink client;
     // The display is switched on now.
     const auto time_ns = [begin_ns = clock_ns()] { return clock_ns() - begin_ns; };
@@ -137,6 +156,12 @@ Expected<void> sim(const SimOptions& options) {
         }
         const Status moved = simulator->poll(now_ns);
         events.shown(*simulator, now_ns);
+        if (shutter && shutter->is_over(now_ns)) {
+            const Expected<SeenInTime> seen = shutter->close(*simulator, now_ns, looks, {});
+            if (!seen) return tl::unexpected(seen.error());
+            events.seen(options.simulation, *seen);
+            shutter.reset();
+        }
         if (moved == Status::Ok) heard_ns = now_ns;
         if (client && (moved == Status::Closed || now_ns - heard_ns > kPatience_ns)) {
             simulator->set_link(Link{});

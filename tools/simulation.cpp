@@ -31,4 +31,13 @@ Expected<sim::Conditions> read_conditions(const SimulationOptions& options) {
     return conditions;
 }
 
+Expected<void> check_rotor(const sim::Conditions& conditions, const DisplayDescription& display) {
+    const bool moves = display.kind != DisplayKind::StackedPlanes && display.kind != DisplayKind::FreePoints;
+    if (!conditions.rotor || moves) return {};
+    return fail(
+        fmt::format("--rotor: {} is at rest, there is nothing that turns or sweeps; leave it out, and [rotor] in "
+                    "the file of --sim",
+                    display.name.view()));
+}
+
 }  // namespace xorvox::tools

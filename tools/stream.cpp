@@ -73,8 +73,11 @@ Expected<StreamDelivery> stream_in_process(const DeliveryOptions& options, const
     Expected<LocalDisplay> local = make_local_display(options, display, device_end.get());
     if (!local) return tl::unexpected(local.error());
     sim::Simulator& simulator = local->simulator;
-    host::Session session(host_end.get(), display, session_options(false, display, feeder.first()));
+    host::Session session(host_end.get(), display,
+                          session_options(false, display, feeder.first(), !options.record.empty()));
     host::FrameStream stream(session, display);
+    // What moves is watched from its first frame on.
+    if (local->shutter && options.simulation.exposure_s) local->shutter->open(simulator, options.simulation);
     stop_on_signals();
     while (!asked_to_stop() && (!feeder.done() || !stream.idle())) {
         feeder.feed(stream);
@@ -98,7 +101,7 @@ Expected<StreamDelivery> stream_over(Link link, const DeliveryOptions& options, 
                                      Feeder& feeder) {
     const bool two_way = link.info().two_way;
     const auto now_ns = [two_way] { return two_way ? clock_ns() : 0; };
-    host::Session session(link, display, session_options(two_way, display, feeder.first()));
+    host::Session session(link, display, session_options(two_way, display, feeder.first(), !options.record.empty()));
     host::FrameStream stream(session, display);
     stop_on_signals();
     StreamDelivery delivery;
@@ -153,8 +156,8 @@ Expected<StreamDelivery> deliver_stream(const DeliveryOptions& options, const tr
 void print_stream(const StreamDelivery& delivery) {
     const host::StreamStatistics& s = delivery.stream;
     const auto ms = [](std::uint64_t ns) { return static_cast<double>(ns) * 1e-6; };
-    fmt::print("sent: {} frames, {} bytes as {}\n", thousands(s.sent), thousands(delivery.session.bytes_raw),
-               thousands(delivery.session.bytes_sent));
+    fmt::print("sent: {} frame{}, {} bytes as {}\n", thousands(s.sent), s.sent == 1 ? "" : "s",
+               thousands(delivery.session.bytes_raw), thousands(delivery.session.bytes_sent));
     if (s.presented == 0) return;
     fmt::print("shown: {} frames at {:.2f} a second{}; {} late, {} given up, {} slots missed, {} dropped\n",
                thousands(s.presented), s.rate_hz, delivery.simulated ? " of simulated time" : "", thousands(s.late),

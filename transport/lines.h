@@ -60,7 +60,8 @@ struct LinesOperations {
     /// what is called meanwhile goes on beside it. A strobe that still runs is ended first. Null: set, hold, set.
     Status (*strobe)(void* self, LineMask mask, LineMask levels, std::uint64_t ns);
 
-    /// Optional: with strobe() alone. Returns when no strobe runs any more. May block for as long as it takes.
+    /// Returns when no strobe runs any more. May block for as long as it takes. Null: where strobe is null, for then
+    /// none ever runs; lines that strobe must join, or scanners refuse them.
     Status (*join)(void* self);
 
     /// The levels of all lines: of inputs what they carry, of outputs what they were set to.

@@ -144,12 +144,12 @@ void check_scan(const DisplayDescription& display, Violations& violations) {
                                                     " one bit",
                                                     scan.planes_per_frame, to_string(display.format)));
     }
-    const bool edges_known = scan.min_on_ns > 0 && scan.rise_ns > 0 && scan.fall_ns > 0;
-    if (edges_known && scan.min_on_ns < scan.rise_ns + scan.fall_ns) {
+    const std::uint64_t edges_ns = std::uint64_t{scan.rise_ns} + scan.fall_ns;
+    if (scan.min_on_ns > 0 && scan.min_on_ns < edges_ns) {
         refuse("scan.min_on_ns",
                fmt::format("found {}; allowed: at least {}, which rise_ns and fall_ns make, or an LED is"
                            " never fully lit",
-                           scan.min_on_ns, scan.rise_ns + scan.fall_ns));
+                           scan.min_on_ns, edges_ns));
     }
 }
 

@@ -1,5 +1,6 @@
 // Timing: how long a slice may take, and how long its driver needs. For planning and for the rules of descriptions; no
-// device computes with it. Known figures only: what a description leaves at 0 takes no time here.
+// device computes with it. Known figures only: what a description leaves at 0 takes no time here, but light of bit
+// planes, of which none is shorter than a nanosecond.
 #pragma once
 
 #include <algorithm>
@@ -40,9 +41,49 @@ constexpr double chain_pixels(const DisplayDescription& display) {
     return display.scan.driver == DriverChip::Hub75 ? longest / 2.0 : longest;
 }
 
+/// Whether its light is of bit planes, lit at the times of driver/device/scan/modulation.h. Else what drives it makes
+/// levels: projectors, strings, drivers that are not known, and controllers whose response is not linear.
+constexpr bool lit_by_planes(const DisplayDescription& display) {
+    if (display.light.response != Response::Linear) return false;
+    switch (display.scan.driver) {
+        case DriverChip::Hub75:
+        case DriverChip::ShiftRegister595: return true;
+        case DriverChip::Direct: return display.scan.row_groups > 1;
+        case DriverChip::Ws2812:
+        case DriverChip::Apa102:
+        case DriverChip::Dlp: break;
+    }
+    return false;
+}
+
+/// scan_time_ns() of displays that are lit_by_planes(): Modulation::total_ns() of the shortest light, to the
+/// nanosecond.
+constexpr double plane_scan_time_ns(const DisplayDescription& display, std::uint32_t planes) {
+    const Scan& scan = display.scan;
+    std::uint64_t shift_ns = 0;
+    if (scan.pixel_clock_hz != 0 && scan.driver != DriverChip::Direct) {
+        // The channels of an LED cube and the bits that select its layers are in the same chain.
+        const bool one_chain = scan.driver == DriverChip::ShiftRegister595;
+        auto shifts = static_cast<std::uint64_t>(chain_pixels(display)) / scan.row_groups;
+        if (one_chain) shifts = shifts * channel_count(display.format) + display.slices;
+        shift_ns = (shifts * 1'000'000'000 + scan.pixel_clock_hz - 1) / scan.pixel_clock_hz;
+    }
+    const std::uint64_t gap_ns = std::uint64_t{scan.latch_ns} + scan.fall_ns;
+    std::uint64_t light_ns = std::max(std::uint64_t{scan.min_on_ns}, std::uint64_t{scan.rise_ns} + scan.fall_ns);
+    light_ns = std::max<std::uint64_t>(light_ns, 1);
+    std::uint64_t group_ns = 0;
+    for (std::uint32_t plane = 0; plane < planes; ++plane, light_ns *= 2) {
+        const std::uint64_t on_ns = light_ns + scan.rise_ns / 2 - scan.fall_ns / 2;
+        group_ns += std::max(on_ns, shift_ns) + gap_ns;
+    }
+    // The first data are shifted in while nothing is lit.
+    return static_cast<double>(shift_ns + gap_ns + group_ns * scan.row_groups);
+}
+
 /// The time that the driver needs to show one slice (keeps_light(): to send one frame) with `planes` bit planes, in
 /// nanoseconds; 0: unknown. A bit plane is shifted in while the one before is lit; plane b is lit for min_on_ns·2^b.
 constexpr double scan_time_ns(const DisplayDescription& display, std::uint32_t planes) {
+    if (lit_by_planes(display)) return plane_scan_time_ns(display, planes);
     const Scan& scan = display.scan;
     const double shift_ns = scan.pixel_clock_hz == 0 ? 0.0 : 1e9 / scan.pixel_clock_hz;
     const double pixels = chain_pixels(display);
@@ -51,7 +92,7 @@ constexpr double scan_time_ns(const DisplayDescription& display, std::uint32_t p
         case DriverChip::Apa102: return (32.0 + 32.0 * pixels + pixels / 2.0) * shift_ns + scan.latch_ns;
         default: break;
     }
-    // The channels of an LED cube and the bits that select its layers are in the same chain.
+    // Controllers of their own, whose registers are like those of displays that are lit by planes.
     const bool one_chain = scan.driver == DriverChip::ShiftRegister595;
     const double bits = one_chain ? pixels * channel_count(display.format) : pixels;
     const double layer_bits = one_chain ? display.slices : 0.0;

@@ -11,8 +11,8 @@ const char* describe(wire::Fault fault) {
             return "its scan-out came too late for a slice; let it turn more slowly or show fewer bits a pixel, then "
                    "clear fault 2";
         case Fault::LostIndex:
-            return "its index pulses are missing or do not fit the turn; check the sensor, its magnet and the wiring, "
-                   "then clear fault 3";
+            return "its index pulses are missing or do not fit the turn: it stands, is still gaining speed, or the "
+                   "sensor, its magnet or the wiring is at fault; mend that, then clear fault 3";
         case Fault::Stall:
             return "its rotor stands or turns too slowly; check that nothing holds it and that the motor has power, "
                    "then clear fault 4";

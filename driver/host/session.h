@@ -38,6 +38,8 @@ struct SessionOptions {
     std::uint32_t attempts = 10;  ///< Of hello, of one frame and of one control, before it is given up.
     std::int64_t present_timeout_ns =
         10'000'000'000;  ///< A display that shows no new frame for this long although one is due has failed. 0: never.
+    std::uint64_t keyframe_interval_ns =
+        0;  ///< No delta once the last keyframe was begun so long ago: for who joins later, and recordings. 0: never.
     bool clears_silence = true;  ///< Clears the fault of a silent host, since there is one now; false: looks only.
 };
 

@@ -98,6 +98,7 @@ struct Session::Impl {
     std::uint64_t ask_clock_ns = 0;    ///< When to ask for it, if it is wanted.
 
     Transfer transfer{statistics};
+    std::uint64_t keyframe_ns = 0;         ///< When the last keyframe was begun.
     std::uint64_t phase_since_ns = 0;      ///< When the frame was queued or sent.
     std::uint64_t nothing_overdue_ns = 0;  ///< When a frame was presented, or none was due.
 

@@ -135,7 +135,9 @@ bool Session::Impl::compose() {
     }
     if (controls.has_next()) return compose_message(info.two_way ? controls.send(now_ns) : controls.take());
     if (transfer.phase() == Phase::Queued && (free_pages > 0 || !info.two_way)) {
-        transfer.encode(info.two_way && options.deltas && (device.features & kFeatureDelta) != 0);
+        const bool due = options.keyframe_interval_ns > 0 && now_ns - keyframe_ns >= options.keyframe_interval_ns;
+        transfer.encode(info.two_way && options.deltas && (device.features & kFeatureDelta) != 0 && !due);
+        if (!transfer.is_delta()) keyframe_ns = now_ns;
     }
     if (transfer.phase() == Phase::Sending) {
         const Payload payload = transfer.next_payload();

@@ -36,6 +36,8 @@ public:
     void submit(std::span<const std::byte> content, std::uint64_t present_at_ns);
     /// Queued to Sending, under a new id; as a delta where `delta` allows it and there is a base.
     void encode(bool delta);
+    /// Whether the attempt that is running is one.
+    bool is_delta() const { return encoder_.is_delta(); }
     /// Sending: the next payload.
     Payload next_payload() { return encoder_.payload(next_payload_++); }
     bool all_given() const { return phase_ == Phase::Sending && next_payload_ == encoder_.payload_count(); }

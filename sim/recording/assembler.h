@@ -31,22 +31,25 @@ public:
     /// Packets that are damaged, repeated, of other sessions or of another version do nothing.
     bool take(std::span<const std::byte> packet, std::uint64_t place = 0);
 
+    /// What came before is not known: the session of the next FrameBegin is taken, though its request was not seen. The
+    /// `hello` of its frames is then the place of that FrameBegin.
+    void missed() { adopts_ = true; }
+
     /// The frame that take() completed.
     const AssembledFrame& frame() const { return frame_; }
-    /// Frames that began and did not become whole: a piece is missing or wrong, or they build on one that is.
-    std::uint64_t broken() const { return broken_; }
 
 private:
+    void begin_session(const wire::Header& header, std::uint64_t place);
     bool take_hello(const wire::Header& header, std::span<const std::byte> payload, std::uint64_t place);
     void take_begin(std::span<const std::byte> payload, std::uint64_t place);
     void take_chunk(std::span<const std::byte> payload);
     bool take_end(std::span<const std::byte> payload);
-    void give_up();
 
     std::vector<std::byte> base_;     ///< The frame that was completed last.
     std::vector<std::byte> current_;  ///< The one that is being received.
     AssembledFrame frame_;
 
+    bool adopts_ = false;
     bool in_session_ = false;
     std::uint16_t session_ = 0;
     std::uint32_t sequence_ = 0;
@@ -59,7 +62,6 @@ private:
     wire::FrameBegin begin_;
     std::uint64_t begin_place_ = 0;
     std::size_t covered_ = 0;
-    std::uint64_t broken_ = 0;
 };
 
 }  // namespace xorvox::sim

@@ -1,6 +1,7 @@
 #include "sim/recording/difference.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,30 @@ std::uint32_t bits_of(std::span<const std::byte> row, std::size_t first, std::ui
         if (bit / 8 < row.size()) code |= (std::to_integer<std::uint32_t>(row[bit / 8]) >> (bit % 8) & 1) << i;
     }
     return code;
+}
+
+/// "0xff7200", and of formats with colours also what it means: "0xff7200 (#0072ff)".
+std::string code_text(PixelFormat format, std::uint32_t code, bool padding) {
+    const std::string number = fmt::format("0x{:0{}x}", code, (bits_per_pixel(format) + 3) / 4);
+    struct Channel {
+        std::uint32_t shift, bits;
+    };
+    std::array<Channel, 3> channels{};  // Red, green, blue.
+    switch (format) {
+        case PixelFormat::Rgb111: channels = {{{0, 1}, {1, 1}, {2, 1}}}; break;
+        case PixelFormat::Rgb332: channels = {{{5, 3}, {2, 3}, {0, 2}}}; break;
+        case PixelFormat::Rgb555: channels = {{{10, 5}, {5, 5}, {0, 5}}}; break;
+        case PixelFormat::Rgb565: channels = {{{11, 5}, {5, 6}, {0, 5}}}; break;
+        case PixelFormat::Rgb888: channels = {{{0, 8}, {8, 8}, {16, 8}}}; break;
+        default: return number;
+    }
+    if (padding) return number;
+    std::string color = "#";
+    for (const auto [shift, bits] : channels) {
+        const std::uint32_t most = (1u << bits) - 1;
+        color += fmt::format("{:02x}", (code >> shift & most) * 255 / most);
+    }
+    return fmt::format("{} ({})", number, color);
 }
 
 }  // namespace
@@ -91,13 +116,12 @@ std::string describe(const RecordingDifference& difference, const RecordingReade
     }
     const PixelDifference& first = difference.pixels.first;
     const DisplayFile& display = *a.display();
-    const std::uint32_t digits = (bits_per_pixel(display.format) + 3) / 4;
     const bool padding = first.column >= display.panels[first.panel].columns;
-    return fmt::format("frame {}, slice {}, panel {}, row {}, {}: code 0x{:0{}x} in {}, 0x{:0{}x} in {}; {} {}",
-                       difference.frame, first.slice, first.panel, first.row,
-                       padding ? "the padding behind it" : fmt::format("column {}", first.column), first.code_a, digits,
-                       a.name(), first.code_b, digits, b.name(), difference.pixels.pixels,
-                       difference.pixels.pixels == 1 ? "pixel differs" : "pixels differ");
+    return fmt::format(
+        "frame {}, slice {}, panel {}, row {}, {}: code {} in {}, {} in {}; {} {}", difference.frame, first.slice,
+        first.panel, first.row, padding ? "the padding behind it" : fmt::format("column {}", first.column),
+        code_text(display.format, first.code_a, padding), a.name(), code_text(display.format, first.code_b, padding),
+        b.name(), difference.pixels.pixels, difference.pixels.pixels == 1 ? "pixel differs" : "pixels differ");
 }
 
 }  // namespace xorvox::sim

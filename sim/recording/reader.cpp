@@ -13,8 +13,6 @@
 namespace xorvox::sim {
 namespace {
 
-constexpr const char* kKeepGoing = "xorvox replay --keep-going plays what is whole";
-
 std::string_view as_text(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -22,15 +20,21 @@ std::string_view as_text(std::span<const std::byte> bytes) {
 }  // namespace
 
 Expected<RecordingReader> RecordingReader::open(ByteSource source, Damage damage) {
-    RecordingReader reader(std::move(source));
-    if (const auto head = reader.read_head(damage); !head) return tl::unexpected(head.error());
+    RecordingReader reader(std::move(source), damage);
+    if (const auto head = reader.read_head(); !head) return tl::unexpected(head.error());
     for (const auto step : {&RecordingReader::read_display, &RecordingReader::read_index}) {
         const Expected<void> done = (reader.*step)();
         if (done) continue;
         if (damage == Damage::Refused) return tl::unexpected(done.error());
         if (reader.fault_.empty()) reader.fault_ = done.error().message;
     }
-    if (!reader.fault_.empty()) reader.rebuild_index();
+    if (damage == Damage::Tolerated) {
+        const std::vector<FrameEntry> named = reader.frames_;
+        reader.rebuild_index();
+        if (reader.fault_.empty() && reader.frames_ != named) {
+            reader.fault_ = reader.name() + ": the index does not name the frames that there are";
+        }
+    }
     if (!reader.display_ && reader.next_header(kRecordingHeadBytes) == reader.source_.size) {
         return fail(reader.name() + ": there is nothing of a recording in it; make a new one with xorvox record");
     }
@@ -42,7 +46,7 @@ std::string RecordingReader::at(std::uint64_t offset, const std::string& what) c
     return fmt::format("{}: byte {}: {}", source_.name, offset, what);
 }
 
-Expected<void> RecordingReader::read_head(Damage damage) {
+Expected<void> RecordingReader::read_head() {
     std::array<std::byte, kRecordingHeadBytes> head{};
     const std::size_t there = std::min<std::uint64_t>(head.size(), source_.size);
     if (!source_.read(0, std::span(head).first(there))) return fail(source_.name + ": cannot be read");
@@ -62,13 +66,13 @@ Expected<void> RecordingReader::read_head(Damage damage) {
                     "record, or with --record");
     }
     if (there == 0) return fail(source_.name + ": is empty; make a recording with xorvox record");
-    if (!marked && damage == Damage::Refused && there == head.size()) {
+    if (!marked && damage_is_ == Damage::Refused && there == head.size()) {
         return fail(at(0, "this is not the mark of a recording (.xvr); make one with xorvox record"));
     }
     fault_ = at(0, there < head.size()
                        ? fmt::format("the recording ends after {} bytes, within its head; make a new one", there)
-                       : fmt::format("the head of the recording is damaged; {}", kKeepGoing));
-    return damage == Damage::Refused ? fail(fault_) : Expected<void>();
+                       : fmt::format("the head of the recording is damaged{}", advice()));
+    return damage_is_ == Damage::Refused ? fail(fault_) : Expected<void>();
 }
 
 Expected<void> RecordingReader::read_display() {
@@ -79,9 +83,12 @@ Expected<void> RecordingReader::read_display() {
     const bool another = status == Status::Ok && block.kind != BlockKind::Display;
     first_block_ = another ? offset : at_;
     if (status != Status::Ok || another) {
-        return fail(at(offset, fmt::format("the description of the display is {}; {}, with --display for the "
-                                           "description",
-                                           offset >= source_.size ? "missing" : "damaged", kKeepGoing)));
+        return fail(at(offset, fmt::format("the description of the display is {}{}",
+                                           offset >= source_.size ? "missing" : "damaged",
+                                           damage_is_ == Damage::Tolerated
+                                               ? ""
+                                               : "; xorvox replay --keep-going plays what is whole, with --display "
+                                                 "for the description")));
     }
     Expected<DisplayFile> display = parse_display(as_text(block.payload.subspan(kGeometryBytes)), source_.name);
     if (!display) {
@@ -100,14 +107,11 @@ Expected<void> RecordingReader::read_display() {
 
 Expected<void> RecordingReader::read_index() {
     constexpr std::uint64_t kWholeEnd = kBlockOverhead + kEndBytes;
-    const Error unfinished{at(source_.size, fmt::format("the recording ends here without its end: it was cut off, or "
-                                                        "its program was killed; {}",
-                                                        kKeepGoing))};
-    if (source_.size < first_block_ + kWholeEnd) return tl::unexpected(unfinished);
+    if (source_.size < first_block_ + kWholeEnd) return tl::unexpected(no_end());
     Block block;
     at_ = source_.size - kWholeEnd;
     if (BlockHeader header; !take_header(at_, header) || header.kind != BlockKind::End) {
-        return tl::unexpected(unfinished);
+        return tl::unexpected(no_end());
     }
     if (next(block) != Status::Ok || block.kind != BlockKind::End) return fail(damage_);
     duration_ns_ = block.time_ns;
@@ -115,23 +119,40 @@ Expected<void> RecordingReader::read_index() {
     const std::uint64_t index = decode_u64(block.payload.first<kEndBytes>());
     at_ = index;
     if (index < first_block_ || index >= end) {
-        return fail(at(
-            end, fmt::format("the end says that the index is at byte {}, where it cannot be; {}", index, kKeepGoing)));
+        return fail(
+            at(end, fmt::format("the end says that the index is at byte {}, where it cannot be{}", index, advice())));
     }
     const Status status = next(block);
     if (status == Status::Corrupt) return fail(damage_);
     if (status != Status::Ok || block.kind != BlockKind::Index || at_ != end) {
-        return fail(at(index, fmt::format("the index is not where the end says; {}", kKeepGoing)));
+        return fail(at(index, fmt::format("the index is not where the end says{}", advice())));
     }
     for (std::size_t i = 0; i < block.payload.size(); i += kFrameEntryBytes) {
         const FrameEntry entry = decode_entry(block.payload.subspan(i).first<kFrameEntryBytes>());
         if (entry.hello < first_block_ || entry.begin < entry.hello || entry.begin >= index) {
-            return fail(at(index, fmt::format("frame {} of the index is at no place of the file; {}",
-                                              i / kFrameEntryBytes, kKeepGoing)));
+            return fail(at(index, fmt::format("frame {} of the index is at no place of the file{}",
+                                              i / kFrameEntryBytes, advice())));
         }
         frames_.push_back(entry);
     }
     return {};
+}
+
+/// Why the last bytes are no end; finds one before them.
+Error RecordingReader::no_end() {
+    BlockHeader header;
+    for (std::uint64_t offset = first_block_; take_header(offset, header) && plausible(header);) {
+        offset += kBlockOverhead + header.length;
+        if (offset >= source_.size) break;
+        if (header.kind != BlockKind::End) continue;
+        end_ = offset;
+        const std::uint64_t more = source_.size - offset;
+        return {at(offset, fmt::format("{} byte{} more behind the end of the recording{}", more, more == 1 ? "" : "s",
+                                       advice()))};
+    }
+    return {at(source_.size, fmt::format("the recording ends here without its end: it was cut off, or its program was "
+                                         "killed{}",
+                                         advice()))};
 }
 
 void RecordingReader::rebuild_index() {
@@ -150,13 +171,13 @@ void RecordingReader::rebuild_index() {
 
 bool RecordingReader::take_header(std::uint64_t offset, BlockHeader& header) {
     std::array<std::byte, kBlockHeaderBytes> bytes{};
-    if (source_.size - offset < bytes.size()) return false;
+    if (offset > source_.size || source_.size - offset < bytes.size()) return false;
     return source_.read(offset, bytes) && decode(bytes, header);
 }
 
 Status RecordingReader::next(Block& block) {
     const std::uint64_t offset = at_;
-    if (offset >= source_.size) return Status::Closed;
+    if (offset >= end_) return Status::Closed;
     const std::uint64_t left = source_.size - offset;
     BlockHeader header;
     if (!take_header(offset, header) || !plausible(header)) {
@@ -183,8 +204,12 @@ Status RecordingReader::next(Block& block) {
     return Status::Ok;
 }
 
+const char* RecordingReader::advice() const {
+    return damage_is_ == Damage::Tolerated ? "" : "; xorvox replay --keep-going plays what is whole";
+}
+
 Status RecordingReader::corrupt(std::uint64_t offset, const std::string& what, std::uint64_t go_on_at) {
-    damage_ = at(offset, fmt::format("{}; {}", what, kKeepGoing));
+    damage_ = at(offset, what + advice());
     at_ = go_on_at;
     return Status::Corrupt;
 }

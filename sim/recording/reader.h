@@ -52,6 +52,8 @@ public:
     /// damage, damage() says what; going on is right, and what comes next is the next whole block. Said once for each
     /// damaged place.
     Status next(Block& block);
+    /// The end of a message about damage: what to do. Empty where damage is tolerated.
+    const char* advice() const;
     /// One line, of the last Corrupt.
     const std::string& damage() const { return damage_; }
 
@@ -61,11 +63,13 @@ public:
     void rewind() { at_ = first_block_; }
 
 private:
-    explicit RecordingReader(ByteSource source) : source_(std::move(source)) {}
+    RecordingReader(ByteSource source, Damage damage)
+        : source_(std::move(source)), damage_is_(damage), end_(source_.size) {}
 
-    Expected<void> read_head(Damage damage);
+    Expected<void> read_head();
     Expected<void> read_display();
     Expected<void> read_index();
+    Error no_end();
     void rebuild_index();
     bool take_header(std::uint64_t offset, BlockHeader& header);
     Status corrupt(std::uint64_t offset, const std::string& what, std::uint64_t go_on_at);
@@ -73,6 +77,8 @@ private:
     std::string at(std::uint64_t offset, const std::string& what) const;
 
     ByteSource source_;
+    Damage damage_is_;
+    std::uint64_t end_;  ///< Behind its last block.
     std::optional<DisplayFile> display_;
     std::vector<FrameEntry> frames_;
     std::uint64_t duration_ns_ = 0;

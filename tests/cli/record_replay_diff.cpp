@@ -1,13 +1,22 @@
 // record, replay and diff, and --record of the commands that send.
+#include <algorithm>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
+#include <functional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "driver/wire/crc32c.h"
+#include "driver/wire/packet.h"
+#include "sim/recording/format.h"
+#include "sim/recording/reader.h"
 #include "tests/catch.h"
 #include "tests/cli/process.h"
 
+using namespace xorvox;
 using namespace xorvox::test;
 
 namespace {
@@ -55,6 +64,52 @@ std::vector<Golden> golden() {
         }
     }
     return all;
+}
+
+/// A block, to be changed by a test, or left out (`kept` false).
+struct AnyBlock {
+    sim::BlockHeader header;
+    std::vector<std::byte> payload;
+    bool kept = true;
+
+    bool is(wire::PacketType type) const {
+        wire::Header packet;
+        std::span<const std::byte> content;
+        return header.kind == sim::BlockKind::FromHost && wire::decode_packet(payload, packet, content) == Status::Ok &&
+               packet.type == type;
+    }
+};
+
+/// The recording at `path` with its blocks as `change` leaves them; CRCs and the index's place are right again.
+std::string rewrite(const std::string& path, const std::function<void(std::vector<AnyBlock>&)>& change) {
+    const std::string old = read_file(path);
+    auto reader = sim::RecordingReader::open(
+        sim::memory_source({std::as_bytes(std::span(old)).begin(), std::as_bytes(std::span(old)).end()}, path));
+    REQUIRE(reader);
+    std::vector<AnyBlock> blocks;
+    reader->seek(sim::kRecordingHeadBytes);
+    for (sim::Block block; reader->next(block) == Status::Ok;) {
+        blocks.push_back({{block.kind, 0, block.time_ns}, {block.payload.begin(), block.payload.end()}});
+    }
+    change(blocks);
+    std::string text = old.substr(0, sim::kRecordingHeadBytes);
+    const auto append = [&text](std::span<const std::byte> bytes) {
+        text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    std::uint64_t index_at = 0;
+    for (AnyBlock& block : blocks) {
+        if (!block.kept) continue;
+        if (block.header.kind == sim::BlockKind::Index) index_at = text.size();
+        if (block.header.kind == sim::BlockKind::End) {
+            const auto place = sim::encode_u64(index_at);
+            block.payload.assign(place.begin(), place.end());
+        }
+        block.header.length = static_cast<std::uint32_t>(block.payload.size());
+        append(sim::encode(block.header));
+        append(block.payload);
+        append(sim::encode_u32(wire::crc32c(block.payload)));
+    }
+    return text;
 }
 
 }  // namespace
@@ -129,7 +184,8 @@ TEST_CASE("diff says what differs, by its exit status and in words", "[cli]") {
     CHECK(differ.status == 1);
     CHECK(differ.err.empty());
     CHECK_THAT(differ.out, Catch::StartsWith("different: frame 0, slice "));
-    CHECK_THAT(differ.out, Catch::Contains("code 0x0000ff in " + a) && Catch::Contains("0xff0000 in " + b));
+    CHECK_THAT(differ.out,
+               Catch::Contains("code 0x0000ff (#ff0000) in " + a) && Catch::Contains("0xff0000 (#0000ff) in " + b));
     const Outcome json = run_program({"diff", a, b, "--json"});
     CHECK(json.status == 1);
     CHECK(number(json.out, "code_a") == 0x0000ff);
@@ -247,4 +303,181 @@ TEST_CASE("a program in Python that was written from docs/recordings.md reads wh
     if (std::system("python3 --version > /dev/null 2>&1") != 0) XORVOX_SKIP("there is no python3");
     CHECK(std::system(command.c_str()) == 0);
     CHECK_THAT(read_file(list), Catch::Contains("frame 2: "));
+}
+
+TEST_CASE("what diff calls damaged is not played, and with --keep-going is told", "[cli]") {
+    const Folder folder;
+    const std::string a = record(folder, "a.xvr", {"--spin", "60", "--frames", "3"});
+    const auto last = [](std::vector<AnyBlock>& blocks, const auto& is) {
+        return std::find_if(blocks.rbegin(), blocks.rend(), is);
+    };
+    struct Case {
+        std::string what;
+        std::function<void(std::vector<AnyBlock>&)> change;
+        double shown;
+    };
+    const std::vector<Case> cases{
+        {"the digest of the frame before is not",
+         [&](auto& blocks) {
+             last(blocks, [](const AnyBlock& b) { return b.header.kind == sim::BlockKind::Frame; })->payload[24] ^=
+                 std::byte{1};
+         },
+         3},
+        {"the frame that ends here is not whole",
+         [&](auto& blocks) {
+             last(blocks, [](const AnyBlock& b) { return b.is(wire::PacketType::FrameEnd); })->kept = false;
+         },
+         2},
+        {"the frame before is not in the index",
+         [&](auto& blocks) {
+             last(blocks, [](const AnyBlock& b) { return b.header.kind == sim::BlockKind::Index; })->payload.clear();
+         },
+         3},
+        {"time goes back here",
+         [&](auto& blocks) {
+             last(blocks, [](const AnyBlock& b) {
+                 return b.header.kind == sim::BlockKind::FromDevice;
+             })->header.time_ns = 1;
+         },
+         3},
+    };
+    for (const Case& one : cases) {
+        CAPTURE(one.what);
+        const std::string bad = folder.file("bad.xvr", rewrite(a, one.change));
+        refused({"replay", bad}, one.what);
+        refused({"replay", bad, "--to", "file:" + folder.path("packets")}, one.what);
+        refused({"diff", bad, bad}, one.what);
+        const Outcome played = run_program({"replay", bad, "--keep-going", "--json"});
+        CHECK(played.status == 0);
+        CHECK(number(played.out, "frames_presented") == one.shown);
+        CHECK_THAT(played.err, Catch::StartsWith("xorvox: warning: ") && !Catch::Contains("--keep-going"));
+        CHECK(played.err.find('\n') == played.err.size() - 1);
+    }
+}
+
+TEST_CASE("frames whose session's request is damaged are played all the same", "[cli]") {
+    const Folder folder;
+    std::string bytes = read_file(record(folder, "a.xvr", {"--spin", "60", "--frames", "3"}));
+    bytes[bytes.find("\xb7R>") + sim::kBlockHeaderBytes + 2] ^= 1;
+    const std::string bad = folder.file("bad.xvr", bytes);
+    refused({"replay", bad}, "the contents of this block are damaged");
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--speed", "2"}, {"--seek", "0.01"}}) {
+        const Outcome played = run_program(with({"replay", bad, "--keep-going", "--json"}, more));
+        CAPTURE(more, played.err);
+        CHECK(played.status == 0);
+        CHECK(number(played.out, "frames_presented") >= 1);
+        if (more.empty()) CHECK(number(played.out, "frames_presented") == 3);
+        CHECK(played.err.find('\n') == played.err.size() - 1);
+    }
+}
+
+TEST_CASE("of a recording of which nothing is whole, nothing is played with exit status 0", "[cli]") {
+    const Folder folder;
+    const std::string a = record(folder, "a.xvr");
+    const std::string bad = folder.file("bad.xvr", rewrite(a, [](auto& blocks) {
+                                            for (AnyBlock& b : blocks) b.kept = !b.is(wire::PacketType::FrameEnd);
+                                        }));
+    const Outcome outcome = run_program({"replay", bad, "--keep-going"});
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("nothing of it could be shown"));
+}
+
+TEST_CASE("a recording of more than a day is not played, whatever its times are", "[cli]") {
+    const Folder folder;
+    const std::string a = record(folder, "a.xvr", {"--frames", "2"});
+    for (const std::uint64_t late_ns : {std::uint64_t{300'000'000} << 30, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
+        for (const bool all : {true, false}) {
+            const std::string bad = folder.file("bad.xvr", rewrite(a, [&](auto& blocks) {
+                                                    for (AnyBlock& b : blocks) {
+                                                        const bool later =
+                                                            all ? b.header.kind != sim::BlockKind::Display
+                                                                : b.header.kind == sim::BlockKind::End;
+                                                        if (later) b.header.time_ns = late_ns;
+                                                    }
+                                                }));
+            CHECK(run_program({"replay", bad}).status == 2);
+            const Outcome outcome = run_program({"replay", bad, "--keep-going"});
+            CHECK(outcome.status == 2);
+            CHECK_THAT(outcome.err, Catch::Contains("more than a day"));
+        }
+    }
+}
+
+TEST_CASE("a recording without its description is played for no display of another geometry", "[cli]") {
+    const Folder folder;
+    std::string bytes = read_file(record(folder, "a.xvr"));
+    bytes[100] ^= 1;
+    const Outcome outcome =
+        run_program({"replay", folder.file("bad.xvr", bytes), "--keep-going", "--display", "cube20-ws2812"});
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("of another display than --display cube20-ws2812"));
+}
+
+TEST_CASE("as many frames are sent as were recorded, and half of them at twice the speed", "[cli]") {
+    const Folder folder;
+    const std::string a = record(folder, "a.xvr", {"--spin", "60", "--frames", "20"});
+    const std::string file = "file:" + folder.path("packets");
+    CHECK(number(run_program({"replay", a, "--to", file, "--json"}).out, "frames_sent") == 20);
+    CHECK(number(run_program({"replay", a, "--to", file, "--json", "--speed", "2"}).out, "frames_sent") == 10);
+    CHECK(number(run_program({"replay", a, "--to", file, "--json", "--speed", "max"}).out, "frames_sent") == 20);
+}
+
+TEST_CASE("a recording has a keyframe each second", "[cli]") {
+    const Folder folder;
+    const auto reader = sim::open_recording(record(folder, "a.xvr", {"--spin", "60", "--frames", "130"}));
+    REQUIRE(reader);
+    std::uint64_t key_ns = 0;
+    std::size_t deltas = 0;
+    for (const sim::FrameEntry& frame : reader->frames()) {
+        if (frame.keyframe) key_ns = frame.time_ns;
+        deltas += !frame.keyframe;
+        CHECK(frame.time_ns - key_ns < 1'050'000'000);
+    }
+    CHECK(deltas > 100);
+}
+
+TEST_CASE("what was sent until the display's plug was pulled is kept as a recording", "[cli]") {
+    const Folder folder;
+    const std::string a = record(folder, "a.xvr", {"--spin", "60", "--frames", "200"});
+    const std::string kept = folder.path("kept.xvr");
+    Background display({"sim", "--display", "cube16-ws2812", "--listen", "tcp:0", "--json"});
+    const std::string listening = *display.line();
+    const std::size_t at = listening.find("tcp:");
+    Background player({"replay", a, "--to", listening.substr(at, listening.find('"', at) - at), "--record", kept});
+    // The display tells what it shows.
+    for (auto line = display.line(); line && line->find("\"shown\"") == std::string::npos;) line = display.line();
+    REQUIRE(kill(display.pid(), SIGKILL) == 0);
+    std::string said;
+    while (const auto line = player.line()) said += *line + "\n";
+    CHECK_THAT(said, Catch::Contains("recorded: "));
+    CHECK(player.terminate() == 2);
+    CHECK(number(succeeds({"replay", kept, "--json"}).out, "frames") >= 1);
+}
+
+TEST_CASE("a display that is replayed to is not left alone while it is looked at", "[cli]") {
+    const Folder folder;
+    const std::string seen = succeeds({"replay", record(folder, "a.xvr"), "--exposure", "5", "--json"}).out;
+    CHECK(number(seen, "silent_host") == 0);
+    CHECK(number(seen, "fault") == 0);
+}
+
+TEST_CASE("what is wrong with a recording is told once, where it begins", "[cli]") {
+    const Folder folder;
+    const std::string a = record(folder, "a.xvr", {"--spin", "60", "--frames", "29"});
+    const std::string bytes = read_file(a);
+    const Outcome cut =
+        run_program({"replay", folder.file("cut.xvr", bytes.substr(0, bytes.size() / 2)), "--keep-going"});
+    CHECK(cut.status == 0);
+    CHECK(cut.err.find('\n') == cut.err.size() - 1);
+    CHECK_THAT(cut.err, Catch::Contains("is cut off") && !Catch::Contains("--keep-going"));
+    refused({"replay", folder.file("more.xvr", bytes + "12345")},
+            "byte " + std::to_string(bytes.size()) + ": 5 bytes more behind the end of the recording");
+    refused({"replay", a, "--seek", "0.9"}, "a.xvr is 0.483 s long");
+    CHECK_THAT(succeeds({"replay", record(folder, "one.xvr")}).out, Catch::Contains("shown: 1 frame,"));
+    refused({"record", kDuck, "--display", "cube16-ws2812", "-o", folder.path("x.ply")}, "does not end in .xvr");
+    const std::string said = folder.path("said");
+    const std::string list = "python3 " + kRoot + "examples/list_recording.py '" + folder.path("none.xvr") + "'";
+    if (std::system("python3 --version > /dev/null 2>&1") != 0) XORVOX_SKIP("there is no python3");
+    CHECK(std::system((list + " > '" + said + "' 2>&1").c_str()) != 0);
+    CHECK(read_file(said) == folder.path("none.xvr") + ": No such file or directory\n");
 }

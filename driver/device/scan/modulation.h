@@ -12,9 +12,13 @@
 //               plane 0         plane 1     plane 0
 //
 // A slot is the longer of on and shift, and then the gap: LEDs fall, rows change, data are latched. LEDs that need time
-// to rise and fall give the light of on − rise/2 + fall/2; that is made up for, so that plane p gives exactly half the
-// light of plane p − 1. The shortest light, `unit_ns`, is the longest with which the slots fill the slice's time.
-// Brightness makes a strobe shorter, not its slot.
+// to rise and fall give the light of on − rise/2 + fall/2; that is made up for, so that plane p gives half the light of
+// plane p − 1, exactly but for a half of a nanosecond. The shortest light, `unit_ns`, is the longest with which the
+// slots fill the slice's time, and no shorter than rise and fall together: every LED that is lit is fully lit for a
+// while. Brightness makes a strobe shorter, not its slot; a dim one may be shorter than the rise.
+//
+// The time that the shortest of all modulations takes is told by scan_time_ns() too (driver/display/timing.h), by which
+// descriptions are refused that have no time for it.
 //
 // Integers only; freestanding.
 #pragma once
@@ -74,7 +78,7 @@ constexpr Modulation modulate(const ModulationConfig& config, std::uint64_t avai
     made.gap_ns = config.latch_ns + config.fall_ns;
     made.rise_ns = config.rise_ns;
     made.fall_ns = config.fall_ns;
-    const std::uint64_t least = std::max<std::uint64_t>(config.min_on_ns, 1);
+    const std::uint64_t least = std::max({config.min_on_ns, config.rise_ns + config.fall_ns, std::uint64_t{1}});
     for (made.planes = config.planes; made.planes >= 1; --made.planes) {
         made.unit_ns = least;
         if (made.total_ns() <= available_ns) break;

@@ -85,18 +85,20 @@ class PlaneScanner {
 public:
     using Config = typename Wires::Config;
 
-    /// No hold is longer.
+    /// What is left of a slot, and light of lines that cannot strobe, are held for no longer at a time. The gap of a
+    /// slot, fall and latch_ns, is never cut.
     static constexpr std::uint64_t kLongestHoldNs = 100'000;
 
     /// `config`, `lines` and `buffer` (scan_buffer_words(config)) are borrowed for good. Sets nothing; begin with
-    /// blank(). Ok; Unsupported: see ScanConfig; InvalidArgument: no lines, a pin that is no output of theirs, or two
-    /// pins on one line; OutOfMemory: the buffer is too small.
+    /// blank(). Ok; Unsupported: see ScanConfig; InvalidArgument: no lines, lines that strobe and cannot join(), a pin
+    /// that is no output of theirs, or two pins on one line; OutOfMemory: the buffer is too small.
     Status init(const Config& config, Lines lines, std::span<std::uint64_t> buffer) {
         finished_ = true;
         ready_ = false;
         const ScanConfig& scan = config.scan;
         if (scan.supported != Status::Ok) return scan.supported;
         if (!lines || (scan.used & ~lines.info().outputs) != 0) return Status::InvalidArgument;
+        if (lines.operations->strobe != nullptr && lines.operations->join == nullptr) return Status::InvalidArgument;
         if (static_cast<std::uint32_t>(std::popcount(scan.used)) != scan.pins) return Status::InvalidArgument;
         if (buffer.size() < scan_buffer_words(config)) return Status::OutOfMemory;
         lines_ = lines;

@@ -53,10 +53,11 @@ public:
     }
 
     /// Dark at once, whatever ScanControl says; the next poll() goes on with the next new order. Ok, or what the lines
-    /// answer.
+    /// answer: then poll() goes on as after a failure of its own.
     Status stop() {
         const Status status = scanner_->blank();
         dark_ = status == Status::Ok;
+        failed_ = failed_ || !dark_;
         return status;
     }
 

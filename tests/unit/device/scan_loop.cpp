@@ -128,6 +128,21 @@ TEST_CASE("lines that fail raise a fault, and nothing is lit until it is cleared
     }
 }
 
+TEST_CASE("a stop that fails is tried again by the next round, and nothing is lit until it was ordered dark") {
+    LitCube cube;
+    REQUIRE(cube.run(30 * kMs) == Status::Ok);
+    while (!cube.bench.chips().output_on()) REQUIRE(cube.round() == Status::Ok);
+    cube.bench.lines->fail_sets(0, 1000);
+    REQUIRE(cube.loop.stop() == Status::Closed);
+    cube.bench.lines->fail_sets(0, 0);
+    const std::size_t lights = cube.bench.lights.size();
+    REQUIRE(cube.round() == Status::Ok);
+    CHECK(cube.dark());
+    for (int i = 0; i < 20'000; ++i) (void)cube.round();
+    CHECK(cube.device.fault() == Fault::LateScan);
+    CHECK(cube.bench.lights.size() == lights);
+}
+
 TEST_CASE("a scan loop that is stopped is dark, in the middle of whatever it does") {
     LitCube cube;
     REQUIRE(cube.run(30 * kMs) == Status::Ok);

@@ -173,6 +173,7 @@ public:
     std::function<Status()> step;
     std::function<bool()> finished;
     std::function<Status()> blank;
+    std::function<Status(Lines)> init;
     std::function<void(Lines)> replace_lines;
     std::function<void()> destroy;  ///< The scanner alone.
 
@@ -200,9 +201,8 @@ private:
         modulation = made.scan.modulation;
         bench = std::make_unique<Bench>(display, made.scan.used, safe_levels(made.pins),
                                         std::make_unique<Model>(display, made.pins));
-        replace_lines = [holder](Lines other) {
-            REQUIRE(holder->scanner->init(holder->config, other, holder->buffer) == Status::Ok);
-        };
+        init = [holder](Lines other) { return holder->scanner->init(holder->config, other, holder->buffer); };
+        replace_lines = [begins = init](Lines other) { REQUIRE(begins(other) == Status::Ok); };
         replace_lines(lines().lines());
         begin = [holder](const device::ScanOrder& order, std::uint64_t ns) {
             return holder->scanner->begin(order, ns);

@@ -34,6 +34,13 @@ void scan_until(ScanRig& rig, std::span<const std::byte> bytes, std::uint64_t ti
     rig.lines().limit(transport::VirtualLines::kNoLimit);
 }
 
+LinesOperations without_strobe(Lines lines) {
+    LinesOperations operations = *lines.operations;
+    operations.strobe = nullptr;
+    operations.join = nullptr;
+    return operations;
+}
+
 bool is_dark_and_cleared(const Chips& chips) {
     return !chips.output_on() && chips.rows_released() && chips.columns_clear();
 }
@@ -187,6 +194,65 @@ TEST_CASE("an output that cannot be switched off twice ends with its strobe, and
             CHECK((rig.bench->lights.back() == light));
             CHECK(is_dark_and_cleared(rig.bench->chips()));
         }
+    }
+}
+
+TEST_CASE("three calls that fail, wherever, leave lines dark that cannot strobe by themselves") {
+    for (const DisplayDescription& display : small_displays()) {
+        INFO(display.name.view());
+        const auto bytes = random_slice(display, 1);
+        std::size_t failed = 0;
+        for (std::uint64_t k = 0;; ++k) {
+            ScanRig rig(display);
+            const LinesOperations plain = without_strobe(rig.lines().lines());
+            rig.replace_lines({&plain, rig.lines().lines().self});
+            rig.lines().fail_sets(k, 3);
+            const Status status = rig.scan(lit_order(bytes), kAvailableNs);
+            if (status == Status::Ok) break;
+            ++failed;
+            if (rig.bench->chips().output_on()) FAIL_CHECK("lit after " << k << " calls");
+        }
+        CHECK(failed > 10);
+    }
+}
+
+TEST_CASE("nothing is shifted while a latch is open, also after a pulse of it that was cut") {
+    for (const DisplayDescription& display : {small_hub75(), small_cube()}) {
+        INFO(display.name.view());
+        const LineMask clock = device::line_bit(device::Hub75Pins{}.clock);
+        const LineMask latch = device::line_bit(device::Hub75Pins{}.latch);
+        REQUIRE(device::ShiftRegisterPins{}.clock == device::Hub75Pins{}.clock);
+        REQUIRE(device::ShiftRegisterPins{}.latch == device::Hub75Pins{}.latch);
+        const auto bytes = random_slice(display, 1);
+        std::size_t open = 0;
+        for (const std::uint64_t time_ns : interesting_times(display, bytes)) {
+            for (const bool by_blank : {false, true}) {
+                ScanRig rig(display);
+                scan_until(rig, bytes, time_ns);
+                if ((rig.lines().levels() & latch) == 0) continue;
+                ++open;
+                bool closed = true;
+                rig.bench->after_edge = [&](const Bench::Edge& edge) {
+                    if ((edge.changed & clock) != 0 && (edge.levels & latch) != 0) closed = false;
+                };
+                REQUIRE((by_blank ? rig.blank() : rig.scan(lit_order(bytes), kAvailableNs)) == Status::Ok);
+                rig.bench->after_edge = nullptr;
+                CHECK(closed);
+            }
+        }
+        CHECK(open > 2);
+    }
+}
+
+TEST_CASE("lines that strobe and cannot join are refused") {
+    for (const DisplayDescription& display : small_displays()) {
+        ScanRig rig(display);
+        LinesOperations operations = *rig.lines().lines().operations;
+        operations.join = nullptr;
+        CHECK(rig.init({&operations, rig.lines().lines().self}) == Status::InvalidArgument);
+        CHECK(rig.init({}) == Status::InvalidArgument);
+        operations.strobe = nullptr;
+        CHECK(rig.init({&operations, rig.lines().lines().self}) == Status::Ok);
     }
 }
 

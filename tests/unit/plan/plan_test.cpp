@@ -119,12 +119,12 @@ TEST_CASE("scan-out is planned for panels, cubes, strings and projectors", "[pla
     ScanPlan scan = planned(panels, "tcp").scan;
     CHECK(scan.slice_ns == Approx(138'888.9));
     CHECK(scan.planes_shown == 3);
-    CHECK(scan.scan_ns == Approx(3 * 3200.0 * 32));
+    CHECK(scan.scan_ns == Approx(3200.0 + 3 * 3200.0 * 32));  // The first shift lights nothing yet.
     CHECK(scan.planes_fit == 1);
-    CHECK(scan.slices_fit == 162.0);  // 50,000,000 ÷ 307,200
+    CHECK(scan.slices_fit == 161.0);  // 50,000,000 ÷ 310,400
     CHECK(scan.projector_hz == 0.0);
     panels.scan.bit_planes = 1;
-    CHECK(planned(panels, "tcp").scan.slices_fit == 488.0);
+    CHECK(planned(panels, "tcp").scan.slices_fit == 473.0);
     panels.scan = {};
     CHECK(planned(panels, "tcp").scan.scan_ns == 0.0);
 
@@ -134,8 +134,8 @@ TEST_CASE("scan-out is planned for panels, cubes, strings and projectors", "[pla
     cube.scan.latch_ns = 1000;
     scan = planned(cube, "tcp").scan;
     CHECK(scan.slice_ns == Approx(2.5e6));
-    CHECK(scan.scan_ns == Approx(73'000.0));  // 64 pixels, 8 layers, a latch
-    CHECK(scan.slices_fit == 273.0);
+    CHECK(scan.scan_ns == Approx(2 * 73'000.0));  // 64 pixels, 8 layers, a latch; and the light after it
+    CHECK(scan.slices_fit == 136.0);
 
     DisplayDescription strings = stack(PixelFormat::Rgb888, 16, 16, 16);
     strings.scan.driver = DriverChip::Ws2812;

@@ -89,8 +89,8 @@ TEST_CASE("a recording with any byte damaged is noticed at or before it, and the
             auto reader = sim::RecordingReader::open(bytes_source(bad), sim::Damage::Tolerated);
             REQUIRE(reader);
             const Read read = read_frames(*reader, whole.display);
-            // One block is lost: that of a frame, or the request that begins the session.
-            CHECK((read.frames.size() >= 2 || read.frames.empty()));
+            // One block is lost: at most a frame.
+            CHECK(read.frames.size() >= 2);
             for (const Frame& frame : read.frames) {
                 CHECK(std::find(whole.frames.begin(), whole.frames.end(), frame) != whole.frames.end());
             }
@@ -133,7 +133,7 @@ TEST_CASE("a later minor version is read, and its new kinds of blocks are passed
     const auto crc = sim::encode_u32(wire::crc32c(std::span(bytes).first(12)));
     std::copy(crc.begin(), crc.end(), bytes.begin() + 12);
     bytes.resize(whole.frame_ends.back());
-    const auto header = sim::encode(sim::BlockHeader{static_cast<sim::BlockKind>('?'), 0, 0});
+    const auto header = sim::encode(sim::BlockHeader{static_cast<sim::BlockKind>('?'), 0, 60'000'000});
     bytes.insert(bytes.end(), header.begin(), header.end());
     bytes.insert(bytes.end(), 4, std::byte{0});  // The CRC of nothing.
     auto reader = sim::RecordingReader::open(bytes_source(bytes), sim::Damage::Tolerated);

@@ -98,6 +98,42 @@ TEST_CASE("a frame is to be shown when it asked for, else when it was whole") {
     }
 }
 
+TEST_CASE("a session whose request is damaged is begun with one that is made, and its frames are read") {
+    Recorded recorded;
+    (void)recorded.record({.session = 77});
+    std::vector<std::byte> bytes = read_bytes(recorded.folder.file("a.xvr"));
+    auto whole = sim::RecordingReader::open(bytes_source(bytes));
+    REQUIRE(whole);
+    const std::uint64_t hello = whole->frames()[0].hello;
+    bytes[hello + sim::kBlockHeaderBytes] ^= std::byte{1};
+    for (const std::uint64_t from_ns : {0u, 25'000'000u}) {
+        auto reader = sim::RecordingReader::open(bytes_source(bytes), sim::Damage::Tolerated);
+        REQUIRE(reader);
+        sim::Playback playback(*reader);
+        (void)playback.seek(from_ns);
+        std::vector<Packet> packets;
+        for (Status status = playback.next(); status != Status::Closed; status = playback.next()) {
+            if (status != Status::Ok) continue;
+            packets.push_back({playback.due_ns(), {playback.packet().begin(), playback.packet().end()}});
+        }
+        REQUIRE(packets.size() >= 2);
+        CHECK(header_of(packets[0]).type == wire::PacketType::HelloRequest);
+        CHECK(header_of(packets[0]).session == 77);
+        CHECK(header_of(packets[1]).type == wire::PacketType::FrameBegin);
+        CHECK(header_of(packets[1]).sequence == header_of(packets[0]).sequence + 1);
+        std::vector<std::byte> ping(64);
+        std::size_t size = 0;
+        REQUIRE(playback.make_ping(5, ping, size));
+        ping.resize(size);
+        CHECK(header_of({0, ping}).sequence == header_of(packets.back()).sequence + 1);
+    }
+    auto reader = sim::RecordingReader::open(bytes_source(bytes), sim::Damage::Tolerated);
+    REQUIRE(reader);
+    const Read read = read_frames(*reader, recorded.display);
+    CHECK(read.frames == recorded.frames);
+    CHECK(read.damage.size() == 1);
+}
+
 TEST_CASE("at twice the speed, packets come and frames ask to be presented in half the time") {
     Recorded recorded;
     sim::RecordingReader reader = recorded.record({.present_after_ns = 5'000'000});

@@ -268,6 +268,22 @@ TEST_CASE("deltas are based on the last accepted frame") {
     CHECK(rig.session.statistics().frames_delta == 4);
 }
 
+TEST_CASE("a keyframe is sent each interval that the host wants") {
+    SessionOptions options;
+    options.keyframe_interval_ns = 30 * kMs;
+    Rig rig(options);
+    rig.connect();
+    std::string keys;
+    for (std::uint32_t i = 1; i <= 8; ++i) {
+        const auto packets = rig.sent_frame(make_frame(rig.display, i));
+        keys += packets.front().as<FrameBegin>().flags == kFrameDelta ? '.' : 'k';
+        rig.device.accept(packets.back().as<FrameEnd>());
+        (void)rig.poll();
+        rig.now_ns += 10 * kMs;
+    }
+    CHECK(keys == "k..k..k.");
+}
+
 TEST_CASE("no deltas where the host or the device does not want them") {
     const bool by_host = GENERATE(true, false);
     SessionOptions options;

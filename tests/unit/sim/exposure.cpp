@@ -143,7 +143,7 @@ TEST_CASE("one cycle of a perfect rotor is the steady light of its page, for eve
         const std::vector<std::byte> page = random_page(display);
         // Strobes begin and end at whole nanoseconds.
         const double rounding = 2.0 / (sim::full_light_ns(display) / (display.motion.both_ways ? 2.0 : 1.0));
-        const bool by_levels = !sim::lit_by_planes(display);
+        const bool by_levels = !lit_by_planes(display);
         CHECK(greatest_difference(lights_of(exposed(display, page)), steady_lights(display, page)) <=
               1e-6 + (by_levels ? rounding : 0.0));
     }
@@ -183,6 +183,28 @@ TEST_CASE("the light of a plane is half of that of the plane before, rise and fa
         CHECK(lights.at({3, 1, 2, 5}).y == Approx((1u << bit) / 255.0).epsilon(1e-6));
         CHECK(lights.at({3, 1, 2, 5}).x == 0.0f);
     }
+}
+
+TEST_CASE("a channel of fewer planes repeats them: its steady light is that of the planes that are lit") {
+    for (const PixelFormat format : {PixelFormat::Rgb332, PixelFormat::Rgb565}) {
+        for (const unsigned bit_planes : {0u, 3u, 2u, 1u}) {
+            DisplayDescription display = hub75_rotor();
+            display.format = format;
+            display.scan.bit_planes = static_cast<std::uint8_t>(bit_planes);
+            CAPTURE(to_string(format), bit_planes);
+            const std::vector<std::byte> page = random_page(display);
+            CHECK(greatest_difference(lights_of(exposed(display, page)), steady_lights(display, page)) < 1e-6);
+        }
+    }
+    DisplayDescription display = hub75_rotor();
+    display.format = PixelFormat::Rgb332;
+    CHECK(sim::PixelLight(display).of(2).z == Approx(5.0 / 7.0));
+    CHECK(sim::PixelLight(display).of(1).z == Approx(2.0 / 7.0));
+    CHECK(sim::PixelLight(display).of(3).z == 1.0f);
+    display.scan.bit_planes = 2;
+    CHECK(sim::PixelLight(display).of(2).z == Approx(2.0 / 3.0));
+    display.scan = {};
+    CHECK(sim::PixelLight(display).of(2).z == Approx(2.0 / 3.0));
 }
 
 TEST_CASE("an LED that is switched off before it has risen gives the light of its triangle") {

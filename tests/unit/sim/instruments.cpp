@@ -108,6 +108,17 @@ TEST_CASE("light may be half a slice's way and the reach from its sample") {
     CHECK(off.stray_mm == Approx(6.0));
 }
 
+TEST_CASE("light anywhere in its slice is not outside, however few slices there are") {
+    for (const std::uint32_t slices : {1u, 2u, 3u, 5u, 9u}) {
+        DisplayDescription display = rotor_of(16, 8, slices, PixelFormat::Rgb888);
+        display.scan.driver = DriverChip::Hub75;
+        display.scan.row_groups = 4;
+        const std::vector<std::byte> white(frame_bytes(display), std::byte{0xff});
+        CAPTURE(slices);
+        CHECK(sim::measure(exposed(display, white), white, 255).outside == 0.0);
+    }
+}
+
 TEST_CASE("a helix's light at its seam is where it should be") {
     const DisplayDescription display = helix_of(8, 6, 10, 1, PixelFormat::Mono1);
     const std::vector<std::byte> page(frame_bytes(display), std::byte{0xff});

@@ -67,6 +67,31 @@ struct Told {
     const Timing& timing() const { return watch.timing(); }
 };
 
+TEST_CASE("frames that are presented in the dark are known to be replaced once the next one is presented") {
+    Told told;
+    told.is_dark(Dark::NotLocked, 1);
+    for (std::uint32_t frame = 1; frame <= 4; ++frame) {
+        told.begins(frame, 10 * frame);
+        told.accepted(frame, 10 * frame + 1);
+        told.shows(frame);
+        told.is_dark(Dark::NotLocked, 10 * frame + 2);
+    }
+    REQUIRE(told.watch.frames().size() == 3);
+    for (std::uint32_t frame = 1; frame <= 3; ++frame) {
+        const FrameTiming& timing = told.watch.frames()[frame - 1];
+        CHECK(timing.frame == frame);
+        CHECK(timing.presented_ns == (10 * frame + 2) * kMs);
+        CHECK(timing.first_light_ns == FrameTiming::kNever);
+        CHECK_FALSE(timing.dropped);
+    }
+    told.lights(50);
+    REQUIRE(told.watch.frames().size() == 4);
+    CHECK(told.watch.frames()[3].first_light_ns == 50 * kMs);
+    CHECK(told.timing().presented == 4);
+    CHECK(told.timing().dropped == 0);
+    CHECK(told.timing().latency.frames == 1);
+}
+
 TEST_CASE("a frame's way is told: first packet, accepted, presented, first light") {
     Told told;
     told.begins(7, 3);
