@@ -42,6 +42,8 @@ constexpr std::array<MarkStyle, 4> kMarks{{{"lost", {213, 94, 0}, {1.0f, 0.12f, 
                                            {"changed", {204, 121, 167}, {0.75f, 0.12f, 0.5f}}}};
 
 constexpr std::size_t kDisplaced = 2;
+/// Laid over each other in this order, so that what is missing is seen among what is out of place.
+constexpr std::array<std::size_t, kMarks.size()> kShineThrough{3, 2, 1, 0};
 
 /// Light of its own colour.
 class Fields {
@@ -54,7 +56,7 @@ public:
 
     LightField sent;
     LightField differences;  ///< And what was lit as it was sent, in grey.
-    LightField marks;        ///< Those that are no such.
+    std::array<LightField, kMarks.size()> marked;
     LightField all;
     std::array<std::size_t, kMarks.size()> counts{};
     std::size_t voxels = 0;
@@ -87,7 +89,7 @@ Fields fields_of(const Exposure& exposure, std::span<const std::byte> page, std:
         if (first < is.size()) {
             const glm::dvec3& place_mm = voxel.is_lost() ? voxel.place_mm : voxel.seen_mm;
             fields.add(fields.differences, place_mm, kMarks[first].light);
-            fields.add(fields.marks, place_mm, kMarks[first].light);
+            fields.add(fields.marked[first], place_mm, kMarks[first].light);
         } else if (voxel.light != glm::vec3(0.0f)) {
             fields.add(fields.differences, voxel.seen_mm, glm::vec3(kGrey));
             ++fields.as_sent;
@@ -171,8 +173,9 @@ Expected<Picture> render_comparison(const Exposure& exposure, std::span<const st
     if (!lit) return lit;
     Expected<Picture> differences = render_perspective(display, fields.differences, in_view);
     if (!differences) return differences;
-    if (!fields.marks.flashes.empty()) {
-        const Expected<Picture> marks = render_perspective(display, fields.marks, in_view);
+    for (const std::size_t mark : kShineThrough) {
+        if (fields.marked[mark].flashes.empty()) continue;
+        const Expected<Picture> marks = render_perspective(display, fields.marked[mark], in_view);
         if (!marks) return marks;
         blend(differences->image, *marks);
     }
